@@ -24,20 +24,34 @@ pub struct Chunk {
     pub runs: Range<u64>,
 }
 
-/// The maximum number of runs of a chunk: a multiple of the vector width of any machine, which takes some tenths of a second.
-const CHUNK: u64 = 64;
+/// The chunks of a campaign of `runs` runs of each of `cells` cells, in the order of cells and runs, with at most `size` runs each.
+///
+/// # Panics
+/// If `size` is zero.
+///
+/// ```
+/// let chunks: Vec<_> = rins_campaign::chunks(2, 5, 4).collect();
+/// assert_eq!(chunks.len(), 4);
+/// assert_eq!((chunks[3].index, chunks[3].cell, chunks[3].runs.clone()), (3, 1, 4..5));
+/// ```
+pub fn chunks(cells: usize, runs: u64, size: u64) -> impl Iterator<Item = Chunk> + use<> {
+    let per_cell = runs.div_ceil(size);
+    (0..cells).flat_map(move |cell| {
+        (0..per_cell).map(move |part| {
+            let first = part * size;
+            let runs = first..(first + size).min(runs);
+            Chunk { index: cell as u64 * per_cell + part, cell, runs }
+        })
+    })
+}
 
 impl Campaign {
+    /// The maximum number of runs of a chunk: a multiple of the vector width of any machine, which takes some tenths of a second.
+    pub const CHUNK: u64 = 64;
+
     /// All chunks, in the order of cells and runs.
-    pub fn chunks(&self) -> impl Iterator<Item = Chunk> + '_ {
-        let per_cell = self.chunks_per_cell();
-        (0..self.cells.len()).flat_map(move |cell| {
-            (0..per_cell).map(move |part| {
-                let first = part * CHUNK;
-                let runs = first..(first + CHUNK).min(self.runs);
-                Chunk { index: cell as u64 * per_cell + part, cell, runs }
-            })
-        })
+    pub fn chunks(&self) -> impl Iterator<Item = Chunk> + use<> {
+        chunks(self.cells.len(), self.runs, Self::CHUNK)
     }
 
     /// The number of chunks.
@@ -46,6 +60,6 @@ impl Campaign {
     }
 
     fn chunks_per_cell(&self) -> u64 {
-        self.runs.div_ceil(CHUNK)
+        self.runs.div_ceil(Self::CHUNK)
     }
 }

@@ -5,6 +5,9 @@
 //! in [chunks](Campaign::chunks), by any thread in any order, and in SIMD lanes if
 //! the scenario allows it. [`Statistics`] state whether the covariances agree with the errors.
 //!
+//! A [`PosteriorTally`] does the same for the posterior of any model, with true values that differ from run to run: bias, error over sigma,
+//! coverage, NEES and simulation-based calibration, of each parameter and of the well-determined [`Combinations`].
+//!
 //! **What it does not do.** It reads and writes no files. A run's result does not depend on the others,
 //! on threads, lanes or the machine.
 //!
@@ -49,10 +52,15 @@
 mod campaign;
 mod cell;
 mod lanes;
+mod sbc;
 mod statistics;
 
-pub use campaign::{Campaign, Chunk};
+pub use campaign::{Campaign, Chunk, chunks};
 pub use cell::{Cell, CellError, PARAMETERS, Prepared, RunFailure, RunResult};
+pub use sbc::{
+    COVERAGES, Combinations, Coverage, DETERMINED, EcdfBand, Nees, POINTS, PosteriorRun,
+    PosteriorStatistics, PosteriorTally, QuantityStatistics, clopper_pearson,
+};
 pub use statistics::{Honesty, Statistics, Tally};
 
 #[cfg(doctest)]

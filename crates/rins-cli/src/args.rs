@@ -10,6 +10,7 @@ use rins_io::{LogFile, Overwrite};
 use crate::choices::Noise;
 
 mod calibrate;
+mod campaign;
 mod design;
 mod history;
 mod mission;
@@ -17,6 +18,7 @@ mod observe;
 mod repeated;
 
 pub(crate) use self::calibrate::{Calibrate, LiveSource};
+pub(crate) use self::campaign::{Merge, MonteCarlo};
 pub(crate) use self::design::Design;
 pub(crate) use self::history::History;
 pub(crate) use self::mission::Mission;
@@ -269,50 +271,6 @@ pub(crate) struct Diagnose {
     /// and report the fraction in which anything is found. This takes DRAWS times as long as the diagnosis, on all cores
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) bootstrap: Option<u32>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct MonteCarlo {
-    /// The scenario file; it may define a parameter grid
-    pub(crate) scenario: PathBuf,
-    /// Number of runs of each scenario
-    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
-    pub(crate) runs: u64,
-    /// Seed of the random numbers; by default the scenario's
-    #[arg(long)]
-    pub(crate) seed: Option<u64>,
-    /// Results file (Parquet); the report has the same name with the extension .html
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: PathBuf,
-    /// Continue a campaign that was interrupted
-    #[arg(long)]
-    pub(crate) resume: bool,
-    /// Run only part I of N (a shard), such as 2/5, for `rins merge`
-    #[arg(long, value_name = "I/N", value_parser = shard)]
-    pub(crate) shard: Option<(u64, u64)>,
-    /// Number of threads; by default one per core
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct Merge {
-    /// The partial results: one file for each shard
-    #[arg(required = true)]
-    pub(crate) parts: Vec<PathBuf>,
-    /// Merged results file (Parquet); the report has the same name with the extension .html
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: PathBuf,
-}
-
-/// A shard and how many there are.
-fn shard(text: &str) -> Result<(u64, u64), String> {
-    let numbers = text
-        .split_once('/')
-        .and_then(|(shard, of)| Some((shard.parse::<u64>().ok()?, of.parse::<u64>().ok()?)));
-    numbers
-        .filter(|(shard, of)| (1..=*of).contains(shard))
-        .ok_or_else(|| "expected a shard of so many, such as 2/5".into())
 }
 
 #[derive(Debug, Args)]

@@ -1,7 +1,7 @@
 //! Choices among named alternatives.
 
 use clap::ValueEnum;
-use rins::NoiseChoice;
+use rins::{NoiseChoice, TruthChoice};
 
 /// Source of the noise parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -17,6 +17,24 @@ impl From<Noise> for NoiseChoice {
         match noise {
             Noise::Likely => Self::Likely,
             Noise::Given => Self::Given,
+        }
+    }
+}
+
+/// Source of the true values of a simulated run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Truth {
+    /// Drawn in each run from the prior distribution of the model (simulation-based calibration)
+    Prior,
+    /// The errors that the scenario states, in all runs
+    Scenario,
+}
+
+impl From<Truth> for TruthChoice {
+    fn from(truth: Truth) -> Self {
+        match truth {
+            Truth::Prior => Self::Prior,
+            Truth::Scenario => Self::Scenario,
         }
     }
 }

@@ -192,6 +192,9 @@ fn run_monte_carlo(arguments: &Arguments, campaign: &MonteCarlo) -> anyhow::Resu
     let options = MonteCarloOptions {
         runs: campaign.runs,
         seed: campaign.seed,
+        model: campaign.model.clone(),
+        noise: campaign.noise.into(),
+        truth: campaign.truth.into(),
         output: campaign.output.clone(),
         resume: campaign.resume,
         shard: campaign.shard,

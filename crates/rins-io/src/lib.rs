@@ -43,7 +43,8 @@ mod write;
 
 pub use calibration::{CalibratedRange, Calibration, Covariance, Measured, Provenance};
 pub use campaign::{
-    GridCell, Heading, Identity, Journal, PartRuns, Record, Row, RunRows, ScenarioGrid, write_part,
+    CampaignModel, GridCell, Heading, Identity, Journal, JournalRun, ModelRecord, PartRuns, Record,
+    Row, RunRows, ScenarioGrid, write_part,
 };
 pub use content::TomlContent;
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};

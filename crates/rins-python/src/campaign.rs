@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use rins::MonteCarloOptions;
+use rins::{ModelChoice, MonteCarloOptions, TruthChoice};
 
 use crate::call::Call;
 use crate::error::argument;
+use crate::logs::noise_choice;
 use crate::outcome::{Outcome, overwrite};
 
 /// The options of a campaign.
@@ -15,6 +16,9 @@ use crate::outcome::{Outcome, overwrite};
 pub(crate) struct Campaign {
     runs: u64,
     seed: Option<u64>,
+    model: String,
+    noise: String,
+    truth: String,
     output: PathBuf,
     resume: bool,
     shard: Option<(u64, u64)>,
@@ -30,7 +34,8 @@ pub(crate) fn monte_carlo(
     options: Campaign,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Outcome> {
-    let Campaign { runs, seed, output, resume, shard, threads, force } = options;
+    let Campaign { runs, seed, model, noise, truth, output, resume, shard, threads, force } =
+        options;
     if !(1..=100_000_000).contains(&runs) {
         return Err(argument("runs", "expected 1 to 100000000"));
     }
@@ -40,10 +45,24 @@ pub(crate) fn monte_carlo(
     if threads.is_some_and(|threads| !(1..=1024).contains(&threads)) {
         return Err(argument("threads", "expected 1 to 1024"));
     }
+    let model = ModelChoice::parse(&model)
+        .map_err(|expected| argument("model", format!("{model:?}, {expected}")))?;
+    let noise = noise_choice(&noise)?;
+    let truth = match &*truth {
+        "prior" => TruthChoice::Prior,
+        "scenario" => TruthChoice::Scenario,
+        _ => {
+            let expected = format!("{truth:?}, expected \"prior\" or \"scenario\"");
+            return Err(argument("truth", expected));
+        }
+    };
     let (call, stopped) = Call::with_flag(progress);
     Outcome::run(py, call, None, move |progress| {
         let options = MonteCarloOptions {
             seed,
+            model,
+            noise,
+            truth,
             resume,
             shard,
             threads,

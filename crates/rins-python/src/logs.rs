@@ -13,7 +13,7 @@ use crate::error::argument;
 use crate::log::Log;
 use crate::outcome::Outcome;
 
-fn noise(name: &str) -> PyResult<NoiseChoice> {
+pub(crate) fn noise_choice(name: &str) -> PyResult<NoiseChoice> {
     match name {
         "likely" => Ok(NoiseChoice::Likely),
         "given" => Ok(NoiseChoice::Given),
@@ -99,7 +99,7 @@ pub(crate) fn calibrate(
 ) -> PyResult<Outcome> {
     let choice = model.map(ModelChoice::parse).transpose();
     let choice = choice.map_err(|expected| argument("model", expected))?;
-    let noise = self::noise(noise)?;
+    let noise = noise_choice(noise)?;
     let logs = owned(logs);
     Outcome::run(py, Call::new(progress), model, move |progress| {
         let options = CalibrateOptions { model: choice, noise, progress: progress.clone() };
@@ -130,7 +130,7 @@ pub(crate) fn diagnose(
     let Diagnose { model, held_out, transfer, hypothesis, noise, bootstrap } = options;
     let choice = ModelChoice::parse_estimated(&model);
     let choice = choice.map_err(|expected| argument("model", expected))?;
-    let noise = self::noise(&noise)?;
+    let noise = noise_choice(&noise)?;
     if bootstrap.is_some_and(|draws| !(1..=100_000).contains(&draws)) {
         return Err(argument("bootstrap", "expected 1 to 100000"));
     }

@@ -57,6 +57,10 @@ CASES: dict[str, Case] = {
         ["monte-carlo", CAMPAIGN, "--runs", "2", "--seed", "5", "-o", "runs.parquet"],
         lambda _: rins.monte_carlo(CAMPAIGN, 2, "runs.parquet", seed=5, force=True),
     ),
+    "monte-carlo of a model": (
+        ["monte-carlo", CAMPAIGN, "--runs", "2", "--model", "full", "-o", "runs.parquet"],
+        lambda _: rins.monte_carlo(CAMPAIGN, 2, "runs.parquet", model="full", force=True),
+    ),
 }
 
 

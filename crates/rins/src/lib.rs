@@ -85,7 +85,7 @@ pub use allan::allan;
 pub use apply::{ApplyOptions, apply};
 pub use basis::{BasisResult, InputResult, ItemResult, MeasurementResult, ProvenanceResult};
 pub use calibrate::{CalibrateOptions, calibrate};
-pub use campaign::{MonteCarloOptions, merge, monte_carlo};
+pub use campaign::{MonteCarloOptions, TruthChoice, merge, monte_carlo};
 pub use check::check;
 pub use compare::compare;
 pub use consistency::ConsistencyResult;

@@ -63,7 +63,18 @@ pub enum NoiseChoice {
     Given,
 }
 
+impl NoiseChoice {
+    /// The name in results: `likely` or `given`.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Likely => "likely",
+            Self::Given => "given",
+        }
+    }
+}
+
 /// A model to be estimated, with its name.
+#[derive(Clone, Debug)]
 pub(crate) struct NamedModel {
     pub(crate) name: String,
     pub(crate) model: Model,

@@ -109,6 +109,37 @@ fn a_campaign_says_whether_covariances_are_honest() {
 }
 
 #[test]
+fn a_campaign_of_any_model_says_how_its_posteriors_agree_with_the_truth() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    scenario(folder);
+    let campaign = "monte-carlo scenario.toml --runs 3 --seed 3 --model full --noise given";
+    let result = result_in(folder, &format!("{campaign} -o a.parquet"));
+    assert_eq!((&result["model"], &result["truth"]), (&"full".into(), &"prior".into()));
+    for cell in list(&result, "/cells") {
+        assert_eq!(list(cell, "/parameters").len(), 27);
+        let band = [list(cell, "/rank_band/points"), list(cell, "/rank_band/lower")];
+        for parameter in list(cell, "/parameters") {
+            assert_eq!(list(parameter, "/posterior/coverage").len(), 3);
+            let curve = list(parameter, "/posterior/ecdf_difference");
+            assert!(band.iter().all(|edge| edge.len() == curve.len()));
+        }
+    }
+    let page = fs::read_to_string(folder.join("a.html")).unwrap();
+    assert!(page.contains("Rank of the true value in its posterior"));
+    for (arguments, code, words) in [
+        ("--runs 0", 2, "0 is not in 1..=100000000"),
+        ("--runs 2 --model half", 2, "expected paper12, full or a model file"),
+        ("--runs 2 --model none.toml", 1, "none.toml"),
+    ] {
+        let refused =
+            rins_in(folder, &format!("monte-carlo scenario.toml {arguments} -o x.parquet"));
+        assert_eq!(refused.code, Some(code), "{arguments}: {}", refused.err);
+        assert!(refused.err.contains(words), "{arguments}: {}", refused.err);
+    }
+}
+
+#[test]
 fn parts_that_do_not_belong_together_are_refused() {
     let folder = tempdir().unwrap();
     let folder = folder.path();

@@ -1,4 +1,5 @@
 //! Integration tests of campaigns.
+mod posteriors;
 mod runs;
 mod statistics;
 mod support;

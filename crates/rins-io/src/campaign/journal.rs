@@ -7,12 +7,14 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use flate2::Crc;
-use rins_calibration::Estimate;
-use rins_campaign::{RunFailure, RunResult};
+use rins_campaign::RunFailure;
 
 use super::table::Identity;
 use crate::error::IoError;
 use crate::output::{Overwrite, write_file};
+
+/// The numbers of a run, as many for each run of a campaign, or why it has none.
+pub type JournalRun = Result<Vec<f64>, RunFailure>;
 
 /// The journal of a campaign, with which an interrupted campaign can be resumed.
 ///
@@ -26,6 +28,8 @@ pub struct Journal {
     chunks: Places,
     /// The position of the next chunk \[bytes\].
     end: u64,
+    /// How many numbers a run has.
+    numbers: usize,
 }
 
 /// The position of each finished chunk \[bytes\], and its number of runs.
@@ -34,24 +38,26 @@ type Places = BTreeMap<u64, (u64, u64)>;
 /// The maximum length of a stored failure reason \[characters\].
 const LONGEST_REASON: usize = 1 << 13;
 
-/// The longest line of a chunk \[bytes\].
-const LONGEST_LINE: u64 = 1 << 16;
-
-/// The numbers of a run: three estimates, their covariance, and the NIS.
-const NUMBERS: usize = 13;
+/// The longest line of a chunk \[bytes\]: 61,000 numbers, more than the largest model has.
+const LONGEST_LINE: u64 = 1 << 20;
 
 impl Journal {
-    /// Creates a journal at `path`, and replaces an existing one if that is permitted.
+    /// Creates a journal at `path` of runs with this number of numbers, and replaces an existing one if that is permitted.
     ///
     /// # Errors
     /// [`IoError::Output`] if an existing file must not be replaced, [`IoError::File`] on a system error; no journal of this
     /// campaign exists then.
-    pub fn create(path: &Path, identity: &Identity, overwrite: Overwrite) -> Result<Self, IoError> {
+    pub fn create(
+        path: &Path,
+        identity: &Identity,
+        numbers: usize,
+        overwrite: Overwrite,
+    ) -> Result<Self, IoError> {
         let failed = || IoError::file("write", path);
         write_file(path, overwrite, |out| writeln!(out, "{}", identity.line()).map_err(failed()))?;
         let file = OpenOptions::new().read(true).append(true).open(path).map_err(failed())?;
         let end = file.metadata().map_err(failed())?.len();
-        Ok(Self { path: path.into(), file, chunks: Places::new(), end })
+        Ok(Self { path: path.into(), file, chunks: Places::new(), end, numbers })
     }
 
     /// Opens the journal at `path` to be continued.
@@ -60,14 +66,19 @@ impl Journal {
     ///
     /// # Errors
     /// [`IoError::File`] on a system error.
-    pub fn resume(path: &Path, identity: &Identity) -> Result<Option<Self>, IoError> {
+    pub fn resume(
+        path: &Path,
+        identity: &Identity,
+        numbers: usize,
+    ) -> Result<Option<Self>, IoError> {
         let failed = || IoError::file("read", path);
         let file = OpenOptions::new().read(true).append(true).open(path).map_err(failed())?;
-        let Some((chunks, end)) = places(&file, &identity.line()).map_err(failed())? else {
+        let Some((chunks, end)) = places(&file, &identity.line(), numbers).map_err(failed())?
+        else {
             return Ok(None);
         };
         file.set_len(end).map_err(failed())?;
-        Ok(Some(Self { path: path.into(), file, chunks, end }))
+        Ok(Some(Self { path: path.into(), file, chunks, end, numbers }))
     }
 
     /// The number of runs of a finished chunk; `None` if it is not finished.
@@ -79,12 +90,12 @@ impl Journal {
     ///
     /// # Errors
     /// [`IoError::File`] on a system error, or if the chunk no longer exists.
-    pub fn runs(&mut self, chunk: u64) -> Result<Vec<RunResult>, IoError> {
+    pub fn runs(&mut self, chunk: u64) -> Result<Vec<JournalRun>, IoError> {
         let failed = || IoError::file("read", &self.path);
         let lost = || failed()(io::Error::new(io::ErrorKind::InvalidData, "portion lost"));
         let (place, _) = self.chunks.get(&chunk).ok_or_else(lost)?;
         self.file.seek(SeekFrom::Start(*place)).map_err(failed())?;
-        match next_chunk(&mut Lines::of(&self.file)).map_err(failed())? {
+        match next_chunk(&mut Lines::of(&self.file), self.numbers).map_err(failed())? {
             Some((index, runs)) if index == chunk => Ok(runs),
             _ => Err(lost()),
         }
@@ -94,13 +105,12 @@ impl Journal {
     ///
     /// # Errors
     /// [`IoError::File`] on a system error.
-    pub fn add(&mut self, chunk: u64, runs: &[RunResult]) -> Result<(), IoError> {
+    pub fn add(&mut self, chunk: u64, runs: &[JournalRun]) -> Result<(), IoError> {
         let mut text = format!("chunk {chunk} {}\n", runs.len());
         for run in runs {
             match run {
-                Ok(estimate) => {
-                    let numbers = estimate.value.iter().chain(estimate.covariance.iter());
-                    for number in numbers.chain([&estimate.nis_ratio]) {
+                Ok(numbers) => {
+                    for number in numbers {
                         let _ = write!(text, "{:016x} ", number.to_bits());
                     }
                     text.push('\n');
@@ -164,7 +174,7 @@ impl<R: BufRead> Lines<R> {
 }
 
 /// The finished chunks, and the end of the last one; `None` if the first line belongs to another campaign.
-fn places(file: &File, identity: &str) -> io::Result<Option<(Places, u64)>> {
+fn places(file: &File, identity: &str, numbers: usize) -> io::Result<Option<(Places, u64)>> {
     let mut lines = Lines::of(file);
     let first = lines.next(LONGEST_LINE.max(identity.len() as u64 + 1))?;
     if first.strip_suffix('\n') != Some(identity) {
@@ -172,7 +182,7 @@ fn places(file: &File, identity: &str) -> io::Result<Option<(Places, u64)>> {
     }
     let mut chunks = Places::new();
     let mut end = lines.place;
-    while let Some((index, runs)) = next_chunk(&mut lines)? {
+    while let Some((index, runs)) = next_chunk(&mut lines, numbers)? {
         chunks.insert(index, (end, runs.len() as u64));
         end = lines.place;
     }
@@ -180,7 +190,10 @@ fn places(file: &File, identity: &str) -> io::Result<Option<(Places, u64)>> {
 }
 
 /// The next chunk with its index; `None` if it is incomplete.
-fn next_chunk(lines: &mut Lines<impl BufRead>) -> io::Result<Option<(u64, Vec<RunResult>)>> {
+fn next_chunk(
+    lines: &mut Lines<impl BufRead>,
+    numbers: usize,
+) -> io::Result<Option<(u64, Vec<JournalRun>)>> {
     let heading = lines.next(LONGEST_LINE)?;
     let mut words = heading.split_whitespace();
     let (Some("chunk"), Some(Ok(index)), Some(Ok(count))) =
@@ -194,7 +207,7 @@ fn next_chunk(lines: &mut Lines<impl BufRead>) -> io::Result<Option<(u64, Vec<Ru
     for _ in 0..count {
         let line = lines.next(LONGEST_LINE)?;
         sum.update(line.as_bytes());
-        match run(&line) {
+        match run(&line, numbers) {
             Some(run) => runs.push(run),
             None => return Ok(None),
         }
@@ -210,19 +223,15 @@ fn checksum(lines: &str) -> u32 {
     sum.sum()
 }
 
-fn run(line: &str) -> Option<RunResult> {
+fn run(line: &str, numbers: usize) -> Option<JournalRun> {
     let line = line.strip_suffix('\n')?;
     if let Some(reason) = line.strip_prefix("failed ") {
         return Some(Err(RunFailure { reason: reason.into() }));
     }
-    let numbers = line.split_whitespace().map(|bits| {
+    let read = line.split_whitespace().map(|bits| {
         (bits.len() == 16).then_some(())?;
         u64::from_str_radix(bits, 16).ok().map(f64::from_bits)
     });
-    let numbers: [f64; NUMBERS] = numbers.collect::<Option<Vec<_>>>()?.try_into().ok()?;
-    Some(Ok(Estimate {
-        value: nalgebra::Vector3::from_column_slice(&numbers[..3]),
-        covariance: nalgebra::Matrix3::from_column_slice(&numbers[3..12]),
-        nis_ratio: numbers[12],
-    }))
+    let read = read.collect::<Option<Vec<f64>>>()?;
+    (read.len() == numbers).then_some(Ok(read))
 }

@@ -6,6 +6,6 @@ mod read;
 mod table;
 
 pub use grid::{GridCell, ScenarioGrid};
-pub use journal::Journal;
+pub use journal::{Journal, JournalRun};
 pub use read::PartRuns;
-pub use table::{Heading, Identity, Record, Row, RunRows, write_part};
+pub use table::{CampaignModel, Heading, Identity, ModelRecord, Record, Row, RunRows, write_part};

@@ -11,7 +11,9 @@ use parquet::schema::types::ColumnDescriptor;
 use rins_campaign::PARAMETERS;
 
 use super::grid::MOST_CELLS;
-use super::table::{FAILURE, Heading, INTEGERS, Identity, NUMBERS, Record, Row, RunRows, TEXTS};
+use super::table::{
+    Columns, FAILURE, Heading, INTEGERS, Identity, ModelRecord, Record, Row, RunRows, TEXTS,
+};
 use crate::error::IoError;
 use crate::sound_parquet::SoundParquet;
 
@@ -26,6 +28,9 @@ const MOST_TEXT: usize = 1 << 28;
 
 /// The longest unit \[bytes\].
 const LONGEST_UNIT: usize = 32;
+
+/// The longest id of a parameter \[bytes\].
+const LONGEST_ID: usize = 128;
 
 /// The runs of a result file, one by one, in the order of scenarios and runs.
 ///
@@ -44,6 +49,8 @@ pub struct PartRuns {
     room: usize,
     /// The scenario and the number of the previous run.
     last: Option<(u64, u64)>,
+    /// The parameters of every run, in their order.
+    ids: Option<Vec<String>>,
 }
 
 impl fmt::Debug for PartRuns {
@@ -62,7 +69,7 @@ impl PartRuns {
         let damaged = |error| file.damaged(&error);
         let identity = Identity::from_metadata(file.key_values())
             .ok_or_else(|| damaged(wrong("no campaign of this version of rins")))?;
-        let layout = Layout::of(&file).map_err(damaged)?;
+        let layout = Layout::of(&file, identity.columns()).map_err(damaged)?;
         let columns = file.columns().len();
         if file.rows().saturating_mul(columns as u64) > MOST_VALUES.max(file.length()) {
             return Err(damaged(wrong("more rows than its length can hold")));
@@ -77,6 +84,7 @@ impl PartRuns {
             row: 0,
             room,
             last: None,
+            ids: None,
         })
     }
 
@@ -116,22 +124,23 @@ impl PartRuns {
         }
     }
 
-    /// The next row; `None` at the end.
-    fn read(&mut self) -> Result<Option<Row>, IoError> {
+    /// The next row, that of the parameter `place` of its run; `None` at the end.
+    fn read(&mut self, place: usize) -> Result<Option<Row>, IoError> {
         if !self.fill()? {
             return Ok(None);
         }
         let at = Place { batch: &self.batch, row: self.row };
-        let row = read_row(&mut self.heading, &at, &mut self.room);
+        let row = read_row(&mut self.heading, &at, place, &mut self.room);
         self.row += 1;
         row.map(Some).map_err(|error| self.file.damaged(&error))
     }
 
     /// The rows of the next run; `None` at the end.
     fn run(&mut self) -> Result<Option<RunRows>, IoError> {
-        let mut rows = Vec::with_capacity(PARAMETERS.len());
-        while rows.len() < PARAMETERS.len() {
-            match self.read()? {
+        let n_rows = self.heading.identity.parameters();
+        let mut rows = Vec::with_capacity(n_rows);
+        while rows.len() < n_rows {
+            match self.read(rows.len())? {
                 Some(row) => rows.push(row),
                 None if rows.is_empty() => return Ok(None),
                 None => break,
@@ -140,16 +149,27 @@ impl PartRuns {
         let damaged = |what| self.file.damaged(&wrong(what));
         let [first, ..] = &rows[..] else { return Ok(None) };
         let place = (first.cell, first.run);
-        if rows.iter().any(|row| (row.cell, row.run) != place)
-            || rows.iter().zip(PARAMETERS).any(|(row, id)| row.parameter != id)
+        let of_model = self.heading.identity.model.is_some();
+        let ids = self.ids.get_or_insert_with(|| {
+            if of_model {
+                rows.iter().map(|row| row.parameter.clone()).collect()
+            } else {
+                PARAMETERS.map(String::from).into()
+            }
+        });
+        if rows.len() != n_rows
+            || rows.iter().any(|row| (row.cell, row.run) != place)
+            || rows.iter().zip(ids).any(|(row, id)| row.parameter != *id)
         {
-            return Err(damaged("a run without its three parameters in their order"));
+            return Err(damaged(if of_model {
+                "a run without its parameters in their order"
+            } else {
+                "a run without its three parameters in their order"
+            }));
         }
         if self.last.is_some_and(|last| place <= last) {
             return Err(damaged("runs that are not in their order"));
         }
-        let rows = RunRows::try_from(rows)
-            .map_err(|_| damaged("a run without its three parameters in their order"))?;
         self.last = Some(place);
         Ok(Some(rows))
     }
@@ -178,9 +198,10 @@ struct Layout {
 }
 
 impl Layout {
-    fn of(file: &SoundParquet) -> Result<Self, ParquetError> {
+    fn of(file: &SoundParquet, own: Columns) -> Result<Self, ParquetError> {
         let columns = file.columns();
-        let fixed = INTEGERS.len() + TEXTS.len() + NUMBERS.len() + 1;
+        let (numbers, counts) = (own.numbers(), own.counts());
+        let fixed = INTEGERS.len() + TEXTS.len() + numbers.len() + counts.len() + 1;
         let n_keys = columns.len().checked_sub(fixed).ok_or_else(|| wrong("too few columns"))?;
         let keys: Vec<String> = columns[INTEGERS.len()..INTEGERS.len() + n_keys]
             .iter()
@@ -189,7 +210,8 @@ impl Layout {
         let texts = keys.iter().map(String::as_str).chain(TEXTS);
         let expected = (INTEGERS.into_iter().map(|name| (name, Type::INT64)))
             .chain(texts.map(|name| (name, Type::BYTE_ARRAY)))
-            .chain(NUMBERS.into_iter().map(|name| (name, Type::DOUBLE)))
+            .chain(numbers.iter().map(|name| (name.as_str(), Type::DOUBLE)))
+            .chain(counts.iter().map(|&name| (name, Type::INT64)))
             .chain([(FAILURE, Type::BYTE_ARRAY)]);
         for (column, (name, kind)) in columns.iter().zip(expected) {
             if !is(column, name, kind) {
@@ -282,8 +304,13 @@ impl Place<'_> {
     }
 }
 
-/// The row at this place; its scenario is added to the heading.
-fn read_row(heading: &mut Heading, at: &Place<'_>, room: &mut usize) -> Result<Row, ParquetError> {
+/// The row at this place, that of the parameter `index` of its run; its scenario is added to the heading.
+fn read_row(
+    heading: &mut Heading,
+    at: &Place<'_>,
+    index: usize,
+    room: &mut usize,
+) -> Result<Row, ParquetError> {
     let n_keys = heading.keys.len();
     let cell = at.whole(0)?;
     let place = usize::try_from(cell).ok().filter(|place| *place < MOST_CELLS);
@@ -300,25 +327,41 @@ fn read_row(heading: &mut Heading, at: &Place<'_>, room: &mut usize) -> Result<R
     let texts = INTEGERS.len() + n_keys;
     let first = texts + TEXTS.len();
     let number = |place: usize| at.number(first + place);
+    let Columns { parameters, model } = heading.identity.columns();
     let parameter = at.text(texts)?;
-    if !PARAMETERS.contains(&parameter) {
+    if !model && !PARAMETERS.contains(&parameter) || parameter.len() > LONGEST_ID {
         return Err(wrong("a parameter that no campaign estimates"));
     }
     let unit = at.text(texts + 1)?;
     if unit.len() > LONGEST_UNIT {
         return Err(wrong("an unknown unit"));
     }
+    let before = if model { 5 } else { 3 };
+    let after = before + parameters;
+    let of_model = |()| {
+        Ok::<_, ParquetError>(ModelRecord {
+            prior_sigma: number(3)?,
+            rank: number(4)?,
+            nees: number(after + 1)?,
+            nees_dof: at.whole(first + after + 2)?,
+            iterations: at.whole(first + after + 3)?,
+            converged: at.whole(first + after + 4)? != 0,
+        })
+    };
+    let last = first + after + if model { 5 } else { 1 };
     Ok(Row {
         cell,
         run: at.whole(1)?,
+        place: index,
         parameter: parameter.into(),
         unit: unit.into(),
         record: Record {
             truth: number(0)?,
             estimate: number(1)?,
-            covariances: [number(3)?, number(4)?, number(5)?],
-            nis_ratio: number(6)?,
+            covariances: (before..after).map(number).collect::<Result<_, _>>()?,
+            nis_ratio: number(after)?,
+            of_model: model.then_some(()).map(of_model).transpose()?,
         },
-        failure: at.long_text(first + NUMBERS.len(), room)?,
+        failure: at.long_text(last, room)?,
     })
 }

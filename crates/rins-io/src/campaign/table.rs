@@ -30,6 +30,23 @@ pub struct Identity {
     pub seed: u64,
     /// The number of the shard, from 1, and the number of shards.
     pub shard: (u64, u64),
+    /// The estimated model; `None` for the three parameters of the paper's filter.
+    pub model: Option<CampaignModel>,
+}
+
+/// The model that a campaign estimates, with the sources of noise and true values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CampaignModel {
+    /// The name: `full`, or the path of the model file.
+    pub name: String,
+    /// The text of the model file; empty if there is none.
+    pub text: String,
+    /// The source of the noise parameters.
+    pub noise: String,
+    /// The source of the true values.
+    pub truth: String,
+    /// The number of estimated parameters.
+    pub parameters: usize,
 }
 
 impl Identity {
@@ -38,9 +55,15 @@ impl Identity {
 
     /// The identity in one line.
     pub(super) fn line(&self) -> String {
-        let Self { scenario, runs, seed, shard: (shard, of) } = self;
+        let Self { scenario, runs, seed, shard: (shard, of), model } = self;
         let scenario = serde_json::Value::from(scenario.as_str());
-        format!("rins {} runs {runs} seed {seed} shard {shard}/{of} {scenario}", Self::VERSION)
+        let line =
+            format!("rins {} runs {runs} seed {seed} shard {shard}/{of} {scenario}", Self::VERSION);
+        let Some(CampaignModel { name, text, noise, truth, parameters }) = model else {
+            return line;
+        };
+        let [name, text] = [name, text].map(|text| serde_json::Value::from(text.as_str()));
+        format!("{line} model {name} noise {noise} truth {truth} parameters {parameters} {text}")
     }
 
     /// The identity of the whole campaign.
@@ -51,15 +74,23 @@ impl Identity {
 
     fn metadata(&self) -> Vec<KeyValue> {
         let (shard, of) = self.shard;
-        [
+        let mut pairs = vec![
             ("rins.version", Self::VERSION.into()),
             ("rins.scenario", self.scenario.clone()),
             ("rins.runs", self.runs.to_string()),
             ("rins.seed", self.seed.to_string()),
             ("rins.shard", format!("{shard}/{of}")),
-        ]
-        .map(|(key, value)| KeyValue::new(key.into(), value))
-        .into()
+        ];
+        if let Some(model) = &self.model {
+            pairs.extend([
+                ("rins.model", model.name.clone()),
+                ("rins.model_text", model.text.clone()),
+                ("rins.noise", model.noise.clone()),
+                ("rins.truth", model.truth.clone()),
+                ("rins.parameters", model.parameters.to_string()),
+            ]);
+        }
+        pairs.into_iter().map(|(key, value)| KeyValue::new(key.into(), value)).collect()
     }
 
     pub(super) fn from_metadata(metadata: &[KeyValue]) -> Option<Self> {
@@ -73,7 +104,30 @@ impl Identity {
             runs: get("rins.runs")?.parse().ok()?,
             seed: get("rins.seed")?.parse().ok()?,
             shard: (shard.parse().ok()?, of.parse().ok()?),
+            model: match get("rins.model") {
+                None => None,
+                Some(name) => Some(CampaignModel {
+                    name: name.into(),
+                    text: get("rins.model_text")?.into(),
+                    noise: get("rins.noise")?.into(),
+                    truth: get("rins.truth")?.into(),
+                    parameters: get("rins.parameters")?
+                        .parse()
+                        .ok()
+                        .filter(|number| (1..=MOST_PARAMETERS).contains(number))?,
+                }),
+            },
         })
+    }
+
+    /// The columns of the results.
+    pub(super) fn columns(&self) -> Columns {
+        Columns { parameters: self.parameters(), model: self.model.is_some() }
+    }
+
+    /// The number of parameters, and of rows of a run.
+    pub fn parameters(&self) -> usize {
+        self.model.as_ref().map_or(PARAMETERS.len(), |model| model.parameters)
     }
 }
 
@@ -84,10 +138,29 @@ pub struct Record {
     pub truth: f64,
     /// The estimate; NaN if the run failed.
     pub estimate: f64,
-    /// Its covariances with the three parameters.
-    pub covariances: [f64; 3],
+    /// Its covariances with all parameters, in their order.
+    pub covariances: Vec<f64>,
     /// The run's mean normalized innovation squared divided by its degrees of freedom.
     pub nis_ratio: f64,
+    /// The further columns of a campaign with a model.
+    pub of_model: Option<ModelRecord>,
+}
+
+/// The columns that only a campaign with a model has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelRecord {
+    /// The prior sigma of the parameter, in its unit.
+    pub prior_sigma: f64,
+    /// The rank of the true value in the posterior, from 0 to 1: its probability integral transform.
+    pub rank: f64,
+    /// The NEES of the well-determined combinations of the run.
+    pub nees: f64,
+    /// Its degrees of freedom.
+    pub nees_dof: u64,
+    /// The number of iterations of the run.
+    pub iterations: u64,
+    /// Whether the estimate of the run converged.
+    pub converged: bool,
 }
 
 /// A row: the scenario, the run, the parameter, and the result.
@@ -97,6 +170,8 @@ pub struct Row {
     pub cell: u64,
     /// The index of the run, from 0.
     pub run: u64,
+    /// The index of the parameter, from 0.
+    pub place: usize,
     /// The parameter's id.
     pub parameter: String,
     /// The unit of the numbers.
@@ -107,8 +182,8 @@ pub struct Row {
     pub failure: String,
 }
 
-/// The rows of a run: its parameters in their order.
-pub type RunRows = [Row; PARAMETERS.len()];
+/// The rows of a run: its parameters in their order, at least one.
+pub type RunRows = Vec<Row>;
 
 /// The heading of the results of a campaign or a shard.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,15 +196,45 @@ pub struct Heading {
     pub values: Vec<Vec<String>>,
 }
 
-/// The integer columns.
+/// The maximum number of parameters of a model.
+const MOST_PARAMETERS: usize = 256;
+
+/// The integer columns at the beginning.
 pub(super) const INTEGERS: [&str; 2] = ["cell", "run"];
 /// The text columns, which follow those of the grid.
 pub(super) const TEXTS: [&str; 2] = ["parameter", "unit"];
-/// The floating-point columns.
-pub(super) const NUMBERS: [&str; 7] =
-    ["truth", "estimate", "sigma", "covariance_1", "covariance_2", "covariance_3", "nis_ratio"];
+/// The integer columns after the floating-point columns.
+const COUNTS: [&str; 3] = ["nees_dof", "iterations", "converged"];
 /// The last column.
 pub(super) const FAILURE: &str = "failure";
+
+/// The columns of the results between the texts and the last column.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Columns {
+    /// The number of parameters.
+    pub(super) parameters: usize,
+    /// Whether there are the columns of a campaign with a model.
+    pub(super) model: bool,
+}
+
+impl Columns {
+    /// The floating-point columns.
+    pub(super) fn numbers(self) -> Vec<String> {
+        let covariances = (1..=self.parameters).map(|other| format!("covariance_{other}"));
+        let own = |names: &'static [&str]| names.iter().map(|&name| name.to_owned());
+        let (first, last): (&[&str], &[&str]) = if self.model {
+            (&["truth", "estimate", "sigma", "prior_sigma", "rank"], &["nis_ratio", "nees"])
+        } else {
+            (&["truth", "estimate", "sigma"], &["nis_ratio"])
+        };
+        own(first).chain(covariances).chain(own(last)).collect()
+    }
+
+    /// The integer columns after them.
+    pub(super) const fn counts(self) -> &'static [&'static str] {
+        if self.model { &COUNTS } else { &[] }
+    }
+}
 
 /// Writes results run by run and atomically; the runs are consumed as they are written.
 ///
@@ -178,8 +283,13 @@ fn encode(
     for name in heading.keys.iter().map(String::as_str).chain(TEXTS) {
         fields.push(text(name)?);
     }
-    for name in NUMBERS {
-        fields.push(field(name, Physical::DOUBLE, None)?);
+    let columns = heading.identity.columns();
+    let n_numbers = columns.numbers().len();
+    for name in columns.numbers() {
+        fields.push(field(&name, Physical::DOUBLE, None)?);
+    }
+    for name in columns.counts() {
+        fields.push(field(name, Physical::INT64, None)?);
     }
     fields.push(text(FAILURE)?);
     let schema = Type::group_type_builder("campaign").with_fields(fields).build()?;
@@ -207,8 +317,11 @@ fn encode(
         }
         texts(&mut group, rows, |row| row.parameter.clone())?;
         texts(&mut group, rows, |row| row.unit.clone())?;
-        for column in 0..NUMBERS.len() {
+        for column in 0..n_numbers {
             numbers(&mut group, rows, column)?;
+        }
+        for column in 0..columns.counts().len() {
+            integers(&mut group, rows, |row| row.counts()[column])?;
         }
         texts(&mut group, rows, |row| row.failure.clone())?;
         group.close()?;
@@ -244,7 +357,7 @@ fn texts(
 }
 
 fn numbers(group: &mut Group<'_, '_>, rows: &[Row], place: usize) -> Result<(), ParquetError> {
-    let values: Vec<f64> = rows.iter().map(|row| row.numbers()[place]).collect();
+    let values: Vec<f64> = rows.iter().map(|row| row.number(place)).collect();
     let mut column = group.next_column()?.ok_or_else(missing)?;
     column.typed::<DoubleType>().write_batch(&values, None, None)?;
     column.close()
@@ -255,16 +368,28 @@ fn missing() -> ParquetError {
 }
 
 impl Row {
-    /// The numbers, in the order of the columns.
-    fn numbers(&self) -> [f64; NUMBERS.len()] {
-        let Record { truth, estimate, covariances: [a, b, c], nis_ratio } = self.record;
-        let of_itself =
-            place(&self.parameter).map_or(f64::NAN, |place| self.record.covariances[place]);
-        [truth, estimate, of_itself.sqrt(), a, b, c, nis_ratio]
+    /// A number, in the order of [`Columns::numbers`].
+    fn number(&self, column: usize) -> f64 {
+        let Record { truth, estimate, covariances, nis_ratio, of_model } = &self.record;
+        let more = of_model.map_or([f64::NAN; 2], |model| [model.prior_sigma, model.rank]);
+        let before = if of_model.is_some() { 5 } else { 3 };
+        match column {
+            0 => *truth,
+            1 => *estimate,
+            2 => covariances.get(self.place).map_or(f64::NAN, |variance| variance.sqrt()),
+            3 | 4 if of_model.is_some() => more[column - 3],
+            _ => match covariances.get(column - before) {
+                Some(covariance) => *covariance,
+                None if column == before + covariances.len() => *nis_ratio,
+                None => of_model.map_or(f64::NAN, |model| model.nees),
+            },
+        }
     }
-}
 
-/// The index of a parameter among the three.
-fn place(parameter: &str) -> Option<usize> {
-    PARAMETERS.iter().position(|id| *id == parameter)
+    /// The integers of [`COUNTS`].
+    fn counts(&self) -> [u64; COUNTS.len()] {
+        self.record.of_model.map_or([0; COUNTS.len()], |model| {
+            [model.nees_dof, model.iterations, u64::from(model.converged)]
+        })
+    }
 }

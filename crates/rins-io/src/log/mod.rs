@@ -69,9 +69,22 @@ impl Loaded {
     /// [`IoError::Key`] if the rig file states no site.
     pub fn of_live(log: &LiveLog, recording: Recording) -> Result<Self, IoError> {
         let interval = log.nominal_interval().unwrap_or_else(|| recording.mean_interval());
+        Self::even(log.rig(), recording, interval)
+    }
+
+    /// A recording in memory, such as a simulated one, without jitter or gaps.
+    ///
+    /// # Errors
+    /// [`IoError::Key`] if the rig file states no site.
+    pub fn of_recording(rig: &Rig, recording: Recording) -> Result<Self, IoError> {
+        let interval = recording.mean_interval();
+        Self::even(rig, recording, interval)
+    }
+
+    fn even(rig: &Rig, recording: Recording, interval: f64) -> Result<Self, IoError> {
         Ok(Self {
-            station: *log.rig().require_station()?,
-            rig: log.rig().clone(),
+            station: *rig.require_station()?,
+            rig: rig.clone(),
             summary: LogSummary::even(recording.len(), interval),
             recording,
             rotations: Vec::new(),

@@ -4,17 +4,19 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use nalgebra::{Matrix3, Vector3};
-use rins_calibration::Estimate;
 use rins_campaign::{PARAMETERS, RunFailure};
 use rins_io::{
-    Heading, Identity, IoError, Journal, Overwrite, PartRuns, Record, Row, RunRows, write_part,
+    CampaignModel, Heading, Identity, IoError, Journal, JournalRun, ModelRecord, Overwrite,
+    PartRuns, Record, Row, RunRows, write_part,
 };
 use tempfile::tempdir;
 
 fn identity() -> Identity {
-    Identity { scenario: "a scenario".into(), runs: 2, seed: 3, shard: (1, 1) }
+    Identity { scenario: "a scenario".into(), runs: 2, seed: 3, shard: (1, 1), model: None }
 }
+
+/// The numbers of a run in the journals of these tests.
+const NUMBERS: usize = 4;
 
 #[derive(Debug, PartialEq)]
 struct Part {
@@ -27,13 +29,15 @@ fn part(cells: &[u64]) -> Part {
     let row = |cell: u64, run: u64, place: usize| Row {
         cell,
         run,
+        place,
         parameter: PARAMETERS[place].into(),
         unit: "arcsec".into(),
         record: Record {
             truth: 1.0,
             estimate: 1.5 + run as f64,
-            covariances: [0, 1, 2].map(|other| f64::from(u8::from(other == place))),
+            covariances: (0..3).map(|other| f64::from(u8::from(other == place))).collect(),
             nis_ratio: 0.9,
+            of_model: None,
         },
         failure: if run == 1 { "why it failed".into() } else { String::new() },
     };
@@ -46,7 +50,7 @@ fn part(cells: &[u64]) -> Part {
             values.resize(place + 1, Vec::new());
             values[place] = vec![format!("{cell} deg"), "a".into()];
         }
-        runs.extend((0..2).map(|run| [0, 1, 2].map(|place| row(cell, run, place))));
+        runs.extend((0..2).map(|run| (0..3).map(|place| row(cell, run, place)).collect()));
     }
     let keys = vec!["roll".into(), "b".into()];
     Part { heading: Heading { identity: identity(), keys, values }, runs }
@@ -70,6 +74,63 @@ fn results_are_read_as_they_were_written() {
     let written = part(&[0, 1, 4]);
     write(&path, &written);
     assert_eq!(read_part(&path).unwrap(), written);
+}
+
+/// The results of a campaign with a model of two parameters.
+fn part_of_model() -> Part {
+    let model = CampaignModel {
+        name: "a model".into(),
+        text: "its text\nhas two lines".into(),
+        noise: "given".into(),
+        truth: "prior".into(),
+        parameters: 2,
+    };
+    let row = |run: u64, place: usize| Row {
+        cell: 0,
+        run,
+        place,
+        parameter: ["gyro.bias.x", "accel.scale.z"][place].into(),
+        unit: ["deg/h", "ppm"][place].into(),
+        record: Record {
+            truth: 0.1 + run as f64,
+            estimate: 0.2,
+            covariances: vec![4.0 + place as f64, 5.0],
+            nis_ratio: 1.1,
+            of_model: Some(ModelRecord {
+                prior_sigma: 7.0,
+                rank: 0.25,
+                nees: 1.5,
+                nees_dof: 2,
+                iterations: 3,
+                converged: run == 0,
+            }),
+        },
+        failure: String::new(),
+    };
+    let identity = Identity { model: Some(model), ..identity() };
+    Part {
+        heading: Heading { identity, keys: Vec::new(), values: vec![Vec::new()] },
+        runs: (0..2).map(|run| (0..2).map(|place| row(run, place)).collect()).collect(),
+    }
+}
+
+#[test]
+fn results_of_a_model_are_read_as_they_were_written() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("part.parquet");
+    let mut written = part_of_model();
+    write(&path, &written);
+    assert_eq!(read_part(&path).unwrap(), written);
+    // Every run has the parameters of the first one.
+    written.runs[1].swap(0, 1);
+    write(&path, &written);
+    let said = read_part(&path).unwrap_err().to_string();
+    assert!(said.contains("a run without its parameters in their order"), "{said}");
+    // A number of parameters that the columns do not have.
+    let mut other = part_of_model();
+    other.heading.identity.model.as_mut().unwrap().parameters = 3;
+    write(&path, &other);
+    assert!(read_part(&path).is_err());
 }
 
 #[test]
@@ -170,7 +231,7 @@ fn damaged_results_are_read_or_refused() {
 
 /// The chunks, among the first ten, that are in the journal.
 fn journal(path: &Path) -> Vec<u64> {
-    let journal = Journal::resume(path, &identity()).unwrap().unwrap();
+    let journal = Journal::resume(path, &identity(), NUMBERS).unwrap().unwrap();
     (0..10).filter(|chunk| journal.len_of(*chunk).is_some()).collect()
 }
 
@@ -178,12 +239,8 @@ fn journal(path: &Path) -> Vec<u64> {
 fn a_journal_gives_back_what_was_added_in_any_order() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("results.parquet.part");
-    let run = |number: f64| {
-        Ok(Estimate {
-            value: Vector3::new(number, -0.0, f64::MIN_POSITIVE / 3.0),
-            covariance: Matrix3::from_fn(|row, column| number / (1 + row + 3 * column) as f64),
-            nis_ratio: 1.0 / number,
-        })
+    let run = |number: f64| -> JournalRun {
+        Ok(vec![number, -0.0, f64::MIN_POSITIVE / 3.0, 1.0 / number])
     };
     let failed = || Err(RunFailure { reason: "none".into() });
     let chunks = [(8, vec![run(0.1), failed()]), (2, vec![failed()]), (5, vec![run(7.0)])];
@@ -194,7 +251,7 @@ fn a_journal_gives_back_what_was_added_in_any_order() {
         }
         assert!(journal.runs(4).is_err());
     };
-    let mut made = Journal::create(&path, &identity(), Overwrite::Refuse).unwrap();
+    let mut made = Journal::create(&path, &identity(), NUMBERS, Overwrite::Refuse).unwrap();
     for (chunk, runs) in &chunks {
         made.add(*chunk, runs).unwrap();
     }
@@ -202,13 +259,13 @@ fn a_journal_gives_back_what_was_added_in_any_order() {
     // Chunks added after a resume are appended to the last one.
     made.add(9, &[failed()]).unwrap();
     drop(made);
-    let mut resumed = Journal::resume(&path, &identity()).unwrap().unwrap();
+    let mut resumed = Journal::resume(&path, &identity(), NUMBERS).unwrap().unwrap();
     same(&mut resumed);
     assert_eq!(resumed.runs(9).unwrap(), [failed()]);
     // If a chunk is repeated, the later one counts.
     resumed.add(2, &[run(3.0), failed()]).unwrap();
     drop(resumed);
-    let mut resumed = Journal::resume(&path, &identity()).unwrap().unwrap();
+    let mut resumed = Journal::resume(&path, &identity(), NUMBERS).unwrap().unwrap();
     assert_eq!(resumed.runs(2).unwrap(), [run(3.0), failed()]);
 }
 
@@ -217,7 +274,7 @@ fn a_journal_goes_on_behind_its_last_whole_portion() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("results.parquet.part");
     let reason = "a sigma of 3 µg/√Hz".to_owned();
-    let mut made = Journal::create(&path, &identity(), Overwrite::Refuse).unwrap();
+    let mut made = Journal::create(&path, &identity(), NUMBERS, Overwrite::Refuse).unwrap();
     for chunk in [4, 7] {
         made.add(chunk, &[Err(RunFailure { reason: reason.clone() })]).unwrap();
     }
@@ -237,7 +294,7 @@ fn a_journal_goes_on_behind_its_last_whole_portion() {
         assert!(left.is_empty() || whole.starts_with(&left) && left.ends_with(b"\n"), "{length}");
     }
     // An existing journal is never replaced by a new one.
-    assert!(Journal::create(&path, &identity(), Overwrite::Refuse).is_err());
+    assert!(Journal::create(&path, &identity(), NUMBERS, Overwrite::Refuse).is_err());
 }
 
 /// If a bit is flipped, no run is changed: a chunk is unchanged, or it is repeated.
@@ -245,16 +302,10 @@ fn a_journal_goes_on_behind_its_last_whole_portion() {
 fn a_journal_with_a_flipped_bit_gives_back_no_other_run() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("results.parquet.part");
-    let run = |number: f64| {
-        Ok(Estimate {
-            value: Vector3::new(number, 2.0 * number, 3.0),
-            covariance: Matrix3::from_diagonal_element(number),
-            nis_ratio: 1.0,
-        })
-    };
+    let run = |number: f64| -> JournalRun { Ok(vec![number, 2.0 * number, 3.0, 1.0]) };
     let failed = || Err(RunFailure { reason: "not aligned".into() });
     let chunks = [(1, vec![run(0.1), failed()]), (2, vec![run(0.2)]), (6, vec![run(0.3)])];
-    let mut made = Journal::create(&path, &identity(), Overwrite::Refuse).unwrap();
+    let mut made = Journal::create(&path, &identity(), NUMBERS, Overwrite::Refuse).unwrap();
     for (chunk, runs) in &chunks {
         made.add(*chunk, runs).unwrap();
     }
@@ -267,7 +318,7 @@ fn a_journal_with_a_flipped_bit_gives_back_no_other_run() {
             let mut flipped = whole.clone();
             flipped[place] ^= 1 << bit;
             fs::write(&path, &flipped).unwrap();
-            let mut journal = Journal::resume(&path, &identity()).unwrap().unwrap();
+            let mut journal = Journal::resume(&path, &identity(), NUMBERS).unwrap().unwrap();
             let mut left = 0;
             for chunk in 0..200 {
                 if journal.len_of(chunk).is_some() {
@@ -286,7 +337,7 @@ fn a_journal_with_a_flipped_bit_gives_back_no_other_run() {
 fn a_journal_of_one_long_line_is_not_read_into_memory() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("results.parquet.part");
-    drop(Journal::create(&path, &identity(), Overwrite::Refuse).unwrap());
+    drop(Journal::create(&path, &identity(), NUMBERS, Overwrite::Refuse).unwrap());
     let file = fs::OpenOptions::new().write(true).open(&path).unwrap();
     let first = file.metadata().unwrap().len();
     file.set_len(1 << 40).unwrap();

@@ -492,6 +492,9 @@ def monte_carlo(
     runs: int,
     output: Pathlike,
     *,
+    model: str | PathLike[str] = "paper12",
+    noise: str = "likely",
+    truth: str = "prior",
     seed: int | None = None,
     resume: bool = False,
     shard: tuple[int, int] | None = None,
@@ -509,6 +512,16 @@ def monte_carlo(
         The number of runs of each scenario.
     output : path-like
         The file of the results (Parquet); the report page lies beside it.
+    model : str or path-like
+        "paper12" (the paper's three parameters), "full" (biases, scale errors, misalignments,
+        attitude of the axis), or a model file. Any other than "paper12" is estimated as by
+        `calibrate`.
+    noise : str
+        Whether a model's noise parameters are estimated ("likely") or those of the data sheet
+        ("given").
+    truth : str
+        Whether the true values of a model's parameters are drawn from their priors in each run
+        ("prior"), which is simulation-based calibration, or are those of the scenario ("scenario").
     seed : int, optional
         The seed; by default the scenario's.
     resume : bool
@@ -527,6 +540,9 @@ def monte_carlo(
         {
             "runs": runs,
             "seed": seed,
+            "model": fspath(model),
+            "noise": noise,
+            "truth": truth,
             "output": fspath(output),
             "resume": resume,
             "shard": shard,

@@ -119,6 +119,9 @@ class _Design(TypedDict):
 class _Campaign(TypedDict):
     runs: int
     seed: int | None
+    model: str
+    noise: str
+    truth: str
     output: _Path
     resume: bool
     shard: tuple[int, int] | None

@@ -339,6 +339,14 @@ class CampaignResult(TypedDict):
     command: str
     """`monte-carlo` or `merge`."""
 
+    model: NotRequired[str | None]
+    """The estimated model: `full` or a model file; absent for the three parameters of the
+    paper's filter."""
+
+    noise: NotRequired[str | None]
+    """The noise parameters of a model's estimation: `likely` (estimated) or `given` (of the
+    data sheet)."""
+
     provenance: ProvenanceResult
     """The program, its inputs, the item and its measurement."""
 
@@ -365,6 +373,9 @@ class CampaignResult(TypedDict):
 
     shard: list[int]
     """The shard, and of how many."""
+
+    truth: NotRequired[str | None]
+    """The true values of a model's parameters: `prior` (drawn in each run) or `scenario`."""
 
 
 class CauseParameterResult(TypedDict):
@@ -461,6 +472,9 @@ class CellResult(TypedDict):
     """What the runs of one scenario say together; of too few runs only `grid` and `runs` are
     there."""
 
+    combinations: NotRequired[list[CombinationResult] | None]
+    """The well-determined combinations of the parameters; of a model only."""
+
     consistent: NotRequired[bool | None]
     """Whether the NEES is within its bounds."""
 
@@ -479,11 +493,21 @@ class CellResult(TypedDict):
     nees_dof: NotRequired[int | None]
     """How much it is if the covariances are consistent."""
 
+    nees_dof_mean: NotRequired[float | None]
+    """The mean number of degrees of freedom of `nees` of a run; of a model only."""
+
     nis_ratio: NotRequired[float | None]
     """The mean normalized innovation squared over its degrees of freedom."""
 
+    not_converged: NotRequired[int | None]
+    """How many runs with an estimate did not converge (their last step is 0.1 sigma or more);
+    of a model only."""
+
     parameters: list[ScatterResult]
     """The parameters."""
+
+    rank_band: NotRequired[RankBandResult | None]
+    """The simultaneous confidence band of all `ecdf_difference`; of a model only."""
 
     runs: int
     """How many runs there are."""
@@ -621,6 +645,27 @@ class CheckResult(TypedDict):
 
     verdicts: list[VerdictResult]
     """A verdict on each thing that can be wrong with a log."""
+
+
+class CombinationResult(TypedDict):
+    """A well-determined combination: an eigenvector of the posterior covariance of the first
+    run, in units of the prior sigmas."""
+
+    error_std: float
+    """The standard deviation of the errors."""
+
+    mean_error: float
+    """The mean error."""
+
+    posterior: PosteriorResult
+    """The calibration of its posterior."""
+
+    sigma_rms: float
+    """The posterior sigma; the prior sigma is 1."""
+
+    weights: dict[str, float]
+    """The weight of each parameter, divided by its prior sigma; weights below 0.001 are
+    omitted."""
 
 
 class CompareResult(TypedDict):
@@ -827,6 +872,19 @@ class CorrectionResult(TypedDict):
 
     table_direction: NotRequired[str | None]
     """The direction of rotation in which the table's angle is counted, if it is to change."""
+
+
+class CoverageResult(TypedDict):
+    """The coverage of a central interval of the posteriors."""
+
+    fraction: float
+    """The fraction of the intervals that contain the true value."""
+
+    interval_95: list[float]
+    """The 95 % Clopper-Pearson interval of the fraction."""
+
+    nominal: float
+    """The probability of the interval."""
 
 
 class DemoBudgetResult(TypedDict):
@@ -2088,6 +2146,42 @@ class ParameterResult(TypedDict):
     """The value."""
 
 
+class PosteriorResult(TypedDict):
+    """How the posterior of one parameter or combination agrees with the true values over the
+    runs."""
+
+    calibrated: NotRequired[bool | None]
+    """Whether the ranks are uniform, with 1 % of false alarms over all parameters and
+    combinations of the scenario; absent of a parameter whose posterior is not calibrated for
+    given true values, because the prior dominates it."""
+
+    coverage: list[CoverageResult]
+    """The coverage of the central 68 %, 95 % and 99.7 % intervals."""
+
+    ecdf_difference: list[float]
+    """The empirical distribution function of the ranks of the true values in their posteriors,
+    minus the uniform one, at `points` of `rank_band`."""
+
+    mean_error_sigma: float
+    """The standard error of `mean_error`."""
+
+    observability: str
+    """The observability: `observable` (posterior sigma below half of the prior sigma),
+    `observable only in a combination`, or `unobservable` (prior-dominated)."""
+
+    p_value: float
+    """The p-value of uniform ranks."""
+
+    prior_sigma: float
+    """The root mean square of the prior sigmas."""
+
+    rms_ratio: float
+    """The root mean square of error over sigma: 1 if the posteriors are calibrated."""
+
+    rms_ratio_interval_95: list[float]
+    """Its 95 % confidence interval."""
+
+
 class PredictedResult(TypedDict):
     """A parameter before it is estimated: its prior and the uncertainty that the data leave."""
 
@@ -2190,6 +2284,20 @@ class ProvenanceResult(TypedDict):
 
     version: str
     """The version of rins."""
+
+
+class RankBandResult(TypedDict):
+    """The simultaneous 95 % confidence band of the difference between the empirical
+    distribution function of ranks and the uniform one (Säilynoja, Bürkner and Vehtari, 2022)."""
+
+    lower: list[float]
+    """The lower edge."""
+
+    points: list[float]
+    """The ranks at which the functions are evaluated."""
+
+    upper: list[float]
+    """The upper edge."""
 
 
 class RunConditionsResult(TypedDict):
@@ -2305,11 +2413,14 @@ class ScatterResult(TypedDict):
     mean_error: float
     """The mean error."""
 
+    posterior: NotRequired[PosteriorResult | None]
+    """The calibration of its posterior; of a model only."""
+
     sigma_rms: float
     """The root mean square of the sigmas claimed."""
 
     truth: float
-    """The true value."""
+    """The true value; the mean of the true values, if each run has its own."""
 
     unit: str
     """Its unit."""

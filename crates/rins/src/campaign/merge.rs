@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 
 use rins_io::{Heading, InputFile, IoError, Overwrite, PartRuns, RunRows, shown};
 
-use super::page::{CampaignOutcome, deliver};
+use super::execution::Rows;
+use super::model::{ModelRun, deliver_model};
+use super::outcome::CampaignOutcome;
+use super::page::deliver;
 use super::runs::Run;
 use crate::basis::BasisResult;
 use crate::error::Result;
@@ -50,10 +53,15 @@ fn merged(
         .iter()
         .map(|path| Ok(PartRuns::open(path)?.peekable()))
         .collect::<Result<_, IoError>>()?;
-    let runs = InOrder { parts }.map(|rows| rows.map(|rows| Run::read(&rows)));
+    let runs = InOrder { parts };
     let names: Vec<String> = paths.iter().map(|path| shown(path)).collect();
     let files = InputFile::of_each(paths.iter().map(PathBuf::as_path))?;
     let source = (&*names.join(", "), "merge", BasisResult::of_files(files));
+    if heading.identity.model.is_some() {
+        let runs = runs.map(|rows| rows.map(|rows| ModelRun::read(&rows)));
+        return deliver_model(&heading, runs, output, source, overwrite);
+    }
+    let runs = runs.map(|rows| rows.map(|rows| Run::read(&rows)));
     deliver(&heading, runs, output, source, overwrite)
 }
 
@@ -74,7 +82,7 @@ impl Iterator for InOrder {
 
     fn next(&mut self) -> Option<Self::Item> {
         let place = |run: &Self::Item| match run {
-            Ok([first, ..]) => (first.cell, first.run),
+            Ok(rows) => (rows[0].cell, rows[0].run),
             // A read error comes first.
             Err(_) => (0, 0),
         };

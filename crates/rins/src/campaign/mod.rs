@@ -1,13 +1,18 @@
 //! Monte Carlo campaigns: many simulated and calibrated runs of a scenario.
 
+mod execution;
 mod merge;
+mod model;
 mod monte_carlo;
+mod outcome;
 mod page;
+mod paper;
 mod result;
 mod runs;
 mod size;
 
 pub use self::merge::merge;
-pub use self::monte_carlo::{MonteCarloOptions, monte_carlo};
-pub use self::page::CampaignOutcome;
+pub use self::model::{CombinationResult, CoverageResult, PosteriorResult, RankBandResult};
+pub use self::monte_carlo::{MonteCarloOptions, TruthChoice, monte_carlo};
+pub use self::outcome::CampaignOutcome;
 pub use self::result::{CampaignResult, CellResult, ScatterResult};

@@ -1,46 +1,21 @@
 //! A campaign as text, JSON, report and Parquet file: do the errors agree with the covariances?
 
-use std::fmt::{self, Write as _};
-use std::fs;
+use std::cell::RefCell;
+use std::fmt::Write as _;
 use std::path::Path;
 
 use nalgebra::Vector3;
 use rins_campaign::{PARAMETERS, Statistics, Tally};
-use rins_io::{Heading, IoError, Overwrite, shown, write_files, write_part};
-use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone, render};
+use rins_io::{Heading, IoError, Overwrite};
+use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone};
 
-use super::result::{CampaignResult, CellResult};
+use super::execution::Rows;
+use super::outcome::{CampaignOutcome, Files, Source, label};
+use super::result::CellResult;
 use super::runs::{Run, UNITS};
-use crate::basis::BasisResult;
-use crate::outcome::Outcome;
 
 /// The maximum number of runs in a plot, of each scenario and in total.
 const SHOWN: [usize; 2] = [2000, 50_000];
-
-/// A campaign whose results have been written.
-#[derive(Debug)]
-pub struct CampaignOutcome {
-    text: String,
-    result: CampaignResult,
-}
-
-impl fmt::Display for CampaignOutcome {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.text)
-    }
-}
-
-impl Outcome for CampaignOutcome {
-    type Result = CampaignResult;
-
-    fn result(&self) -> CampaignResult {
-        self.result.clone()
-    }
-
-    fn basis(&self) -> BasisResult {
-        self.result.basis.clone()
-    }
-}
 
 /// A scenario of the grid with the statistics of its runs.
 struct Scored<'a> {
@@ -60,39 +35,24 @@ pub(super) fn deliver(
     heading: &Heading,
     runs: impl Iterator<Item = Result<Run, IoError>>,
     output: &Path,
-    (source, command, basis): (&str, &'static str, BasisResult),
+    source: Source<'_>,
     overwrite: Overwrite,
 ) -> anyhow::Result<CampaignOutcome> {
-    let title = format!("Campaign of {source}");
-    let page = output.with_extension("html");
-    anyhow::ensure!(page != output, "{}: the report would go here", shown(output));
-    let mut scored = Vec::new();
-    write_files(&[output, &page], overwrite, |folder| {
-        let in_folder = |path: &Path| folder.join(path.file_name().unwrap_or_default());
-        let runs = runs.map(|run| run.map(|run| Scored::add(&mut scored, heading, &run).rows()));
-        write_part(&in_folder(output), Overwrite::Refuse, heading, runs)?;
-        for cell in &mut scored {
+    let title = format!("Campaign of {}", source.0);
+    let files = Files::of(output)?;
+    let scored = RefCell::new(Vec::new());
+    let rows =
+        runs.map(|run| run.map(|run| Scored::add(&mut scored.borrow_mut(), heading, &run).rows()));
+    files.write(overwrite, heading, rows, || {
+        let mut scored = scored.borrow_mut();
+        for cell in scored.iter_mut() {
             cell.statistics = cell.tally.statistics();
         }
-        let path = in_folder(&page);
-        fs::write(&path, render(&report(heading, &scored, &title)))
-            .map_err(|source| IoError::File { action: "write", path, source })
+        report(heading, &scored, &title)
     })?;
-    let result = CampaignResult {
-        schema: crate::SCHEMA,
-        command: command.into(),
-        scenario: source.into(),
-        runs: heading.identity.runs,
-        seed: heading.identity.seed,
-        shard: [heading.identity.shard.0, heading.identity.shard.1],
-        results: output.display().to_string(),
-        report: page.display().to_string(),
-        cells: scored.iter().map(|cell| cell_result(&heading.keys, cell)).collect(),
-        basis,
-    };
-    let text = text(heading, &scored, &title)
-        + &format!("\nResults: {}\nReport: {}\n", shown(output), shown(&page));
-    Ok(CampaignOutcome { text, result })
+    let scored = scored.into_inner();
+    let cells = scored.iter().map(|cell| cell_result(&heading.keys, cell)).collect();
+    Ok(files.outcome(heading, source, cells, text(heading, &scored, &title)))
 }
 
 impl<'a> Scored<'a> {
@@ -121,13 +81,6 @@ impl<'a> Scored<'a> {
         }
         run
     }
-}
-
-/// The label of a scenario of the grid: its values of the keys that vary.
-fn label(keys: &[String], values: &[String]) -> String {
-    let pairs = keys.iter().zip(values).map(|(key, value)| format!("{key} = {value}"));
-    let label = pairs.collect::<Vec<_>>().join(", ");
-    if label.is_empty() { "the scenario".into() } else { label }
 }
 
 fn verdict(statistics: &Statistics) -> (Tone, &'static str) {

@@ -7,6 +7,7 @@ use rins_campaign::{PARAMETERS, Statistics};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::model::{CombinationResult, PosteriorResult, RankBandResult};
 use super::runs::UNITS;
 use crate::basis::BasisResult;
 
@@ -31,6 +32,15 @@ pub struct CampaignResult {
     pub report: String,
     /// The scenarios of the grid.
     pub cells: Vec<CellResult>,
+    /// The estimated model: `full` or a model file; absent for the three parameters of the paper's filter.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub model: Option<String>,
+    /// The noise parameters of a model's estimation: `likely` (estimated) or `given` (of the data sheet).
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub noise: Option<String>,
+    /// The true values of a model's parameters: `prior` (drawn in each run) or `scenario`.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub truth: Option<String>,
     /// Its basis: inputs, repairs and assumptions.
     #[serde(flatten)]
     pub basis: BasisResult,
@@ -57,6 +67,18 @@ pub struct CellResult {
     pub consistent: Option<bool>,
     /// The parameters.
     pub parameters: Vec<ScatterResult>,
+    /// How many runs with an estimate did not converge (their last step is 0.1 sigma or more); of a model only.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub not_converged: Option<usize>,
+    /// The mean number of degrees of freedom of `nees` of a run; of a model only.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub nees_dof_mean: Option<f64>,
+    /// The well-determined combinations of the parameters; of a model only.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub combinations: Option<Vec<CombinationResult>>,
+    /// The simultaneous confidence band of all `ecdf_difference`; of a model only.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub rank_band: Option<RankBandResult>,
 }
 
 /// How the estimates of one parameter scatter, in its unit.
@@ -66,7 +88,7 @@ pub struct ScatterResult {
     pub id: String,
     /// Its unit.
     pub unit: String,
-    /// The true value.
+    /// The true value; the mean of the true values, if each run has its own.
     pub truth: f64,
     /// The mean error.
     pub mean_error: f64,
@@ -76,6 +98,9 @@ pub struct ScatterResult {
     pub sigma_rms: f64,
     /// The share of the 95 % intervals that hold the true value.
     pub coverage_95: f64,
+    /// The calibration of its posterior; of a model only.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub posterior: Option<PosteriorResult>,
 }
 
 impl CellResult {
@@ -90,6 +115,10 @@ impl CellResult {
             nis_ratio: None,
             consistent: None,
             parameters: Vec::new(),
+            not_converged: None,
+            nees_dof_mean: None,
+            combinations: None,
+            rank_band: None,
         }
     }
 
@@ -107,6 +136,7 @@ impl CellResult {
             error_std: honesty.spread,
             sigma_rms: honesty.claimed,
             coverage_95: honesty.coverage,
+            posterior: None,
         });
         Self {
             failed: Some(statistics.failed),

@@ -4,7 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 use rins_calibration::Estimate;
 use rins_campaign::{PARAMETERS, RunFailure, RunResult};
 use rins_frames::units::{ARCSEC, PPM};
-use rins_io::{Record, Row, RunRows};
+use rins_io::{JournalRun, Record, Row, RunRows};
+
+use super::execution::Rows;
 
 /// The units of the parameters: their names and their values in SI units.
 pub(super) const UNITS: [(&str, f64); 3] = [("arcsec", ARCSEC), ("arcsec", ARCSEC), ("ppm", PPM)];
@@ -34,21 +36,23 @@ impl Run {
         });
         Self { cell, number, truth, result }
     }
+}
 
-    /// A run from the rows of a result file.
-    pub(super) fn read(rows: &RunRows) -> Self {
-        let [first, ..] = rows;
+impl Rows for Run {
+    fn read(rows: &RunRows) -> Self {
+        let first = &rows[0];
         // An index beyond `usize` cannot belong to a scenario of a grid.
         let cell = usize::try_from(first.cell).unwrap_or(usize::MAX);
         let truth = Vector3::from_fn(|row, _| rows[row].record.truth);
         Self { cell, number: first.run, truth, result: result(rows) }
     }
 
-    /// A row for each parameter.
-    pub(super) fn rows(&self) -> RunRows {
-        std::array::from_fn(|parameter| self.row(parameter))
+    fn rows(&self) -> RunRows {
+        (0..PARAMETERS.len()).map(|parameter| self.row(parameter)).collect()
     }
+}
 
+impl Run {
     fn row(&self, parameter: usize) -> Row {
         let (estimate, covariances, nis_ratio) = match &self.result {
             Ok(found) => (
@@ -61,12 +65,40 @@ impl Run {
         Row {
             cell: self.cell as u64,
             run: self.number,
+            place: parameter,
             parameter: PARAMETERS[parameter].into(),
             unit: UNITS[parameter].0.into(),
-            record: Record { truth: self.truth[parameter], estimate, covariances, nis_ratio },
+            record: Record {
+                truth: self.truth[parameter],
+                estimate,
+                covariances: covariances.into(),
+                nis_ratio,
+                of_model: None,
+            },
             failure: self.result.as_ref().err().map_or_else(String::new, |f| f.reason.clone()),
         }
     }
+}
+
+/// The numbers of a run in the journal: three estimates, their covariance, and the NIS.
+pub(super) const NUMBERS: usize = 13;
+
+/// The numbers of a run for the journal, in SI units.
+pub(super) fn to_journal(run: &RunResult) -> JournalRun {
+    let numbers = |found: &Estimate| {
+        let numbers = found.value.iter().chain(found.covariance.iter());
+        numbers.copied().chain([found.nis_ratio]).collect()
+    };
+    run.as_ref().map(numbers).map_err(Clone::clone)
+}
+
+/// The result of a run from the journal, in SI units.
+pub(super) fn from_journal(run: JournalRun) -> RunResult {
+    run.map(|numbers| Estimate {
+        value: Vector3::from_column_slice(&numbers[..3]),
+        covariance: Matrix3::from_column_slice(&numbers[3..12]),
+        nis_ratio: numbers[12],
+    })
 }
 
 fn result(rows: &RunRows) -> RunResult {

@@ -98,6 +98,11 @@ fn what_makes_files() {
     reads_back("simulate", &rins::simulate(&scenario, None).unwrap());
     let options = MonteCarloOptions::new(3, at("runs.parquet"));
     reads_back("monte-carlo", &rins::monte_carlo(&scenario, &options).unwrap());
+    let options = MonteCarloOptions {
+        model: ModelChoice::Full,
+        ..MonteCarloOptions::new(2, at("runs-of-model.parquet"))
+    };
+    reads_back("monte-carlo", &rins::monte_carlo(&scenario, &options).unwrap());
     let whole = rins::merge(&[at("runs.parquet")], &at("all.parquet"), Overwrite::Refuse).unwrap();
     reads_back("merge", &whole);
 }
