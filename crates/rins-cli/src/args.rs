@@ -273,7 +273,7 @@ pub(crate) struct MonteCarlo {
     /// The scenario file; it may define a parameter grid
     pub(crate) scenario: PathBuf,
     /// Number of runs of each scenario
-    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=10_000_000_000))]
     pub(crate) runs: u64,
     /// Seed of the random numbers; by default the scenario's
     #[arg(long)]

@@ -1,5 +1,6 @@
 //! Tests of the library from the view of a program that depends on it.
 #![expect(clippy::unwrap_used, reason = "helpers of tests, and not tests themselves, unwrap too")]
 
+mod merge;
 mod read_back;
 mod schema;
