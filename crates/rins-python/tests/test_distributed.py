@@ -39,7 +39,7 @@ class Import(WorkerPlugin):
 def cluster() -> Iterator[LocalCluster]:
     start: Any = LocalCluster
     with start(
-        n_workers=4, threads_per_worker=1, processes=True, dashboard_address=None
+        n_workers=4, threads_per_worker=1, processes=True, dashboard_address=":0"
     ) as cluster:
         yield cluster
 
@@ -270,7 +270,7 @@ def test_scheduler_knows_few_tasks_at_a_time(client: Any) -> None:
             known.append(scheduler_tasks(client))
 
     tasks = (Task(number, str(number), abs, (number,)) for number in range(600))
-    run_all(client, tasks, name="few", retries=0, in_flight=8, done=done, failed=fail)
+    run_all(client, tasks, name="few", retries=0, deaths=0, in_flight=8, done=done, failed=fail)
     assert sorted(ended) == list(range(600))
     # Of 600, as many as are in flight, and those whose release is on its way.
     assert len(known) == 12 and max(known) <= 16
@@ -278,8 +278,40 @@ def test_scheduler_knows_few_tasks_at_a_time(client: Any) -> None:
     assert sum("few" in group for group in groups) <= 1
 
 
-def fail(task: object, error: BaseException, failures: int) -> None:
+def fail(task: object, error: BaseException, what: str) -> None:
     raise error
+
+
+def die_of_it(folder: str, times: int) -> None:
+    """Kill this worker, unless the task has killed so many."""
+    for number in range(times):
+        try:
+            os.close(os.open(f"{folder}/{number}", os.O_CREAT | os.O_EXCL))
+        except FileExistsError:
+            continue
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_task_that_kills_its_workers_ends(client: Client, tmp_path: Path) -> None:
+    from rins._tasks import Task, run_all
+
+    ended: list[str] = []
+    for name, times in (("some", 5), ("all", 100)):
+        (tmp_path / name).mkdir()
+        run_all(
+            client,
+            iter([Task(1, name, die_of_it, (str(tmp_path / name), times))]),
+            name="die",
+            retries=0,
+            deaths=4,
+            in_flight=None,
+            done=lambda task: ended.append(f"{task.label}: done"),
+            failed=lambda task, error, what: ended.append(f"{task.label}: {what}"),
+        )
+    # The scheduler gives up after 4 deaths. The first task is submitted again and ends, the second is given up after 8.
+    assert ended == ["some: done", "all: 8 workers died while they had it"]
+    assert len(list((tmp_path / "some").iterdir())) == 5
+    assert len(list((tmp_path / "all").iterdir())) == 8
 
 
 def scheduler_tasks(client: Any) -> int:
@@ -347,7 +379,15 @@ def test_many_rigs_are_diagnosed_and_failures_are_results(
     assert kept.stat().st_mtime_ns == before[0] and changed.stat().st_mtime_ns != before[1]
     assert without_time(again[2].to_json()) != without_time(alone.to_json())
     assert again[1].error is not None and again[1].error.line == error.line
-    assert again[3].error is not None and "run.csv" in str(again[3].error)
+    assert again[3].error is not None and again[3].error.file == lost.error.file
+    urls = [f"local://{rigs}/{name}/rig.toml" for name in ("bad", "lost", "none")]
+    reached = [one.error for one in rins.distributed.diagnose_many(client, urls, store=store)]
+    assert [one is not None and one.file for one in reached] == [
+        urls[0],
+        f"file://{rigs}/lost/run.csv",
+        f"file://{rigs}/none/rig.toml",
+    ]
+    assert reached[0] is not None and (reached[0].line, reached[0].key) == (error.line, error.key)
     # A result that was altered is not kept.
     data = json.loads(kept.read_text(encoding="utf-8"))
     kept.write_text(json.dumps({**data, "verdict": "named"}), encoding="utf-8")

@@ -10,6 +10,7 @@ import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from errno import ENOENT
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, cast
@@ -135,7 +136,7 @@ class Inputs:
     @classmethod
     def downloaded(cls, system: Any, rig: str, folder: Path) -> Inputs:
         """Those of a rig file in a file system of fsspec, copied into `folder`."""
-        text: bytes = system.cat_file(rig)
+        text = _read_from(system, rig)
         paths = _paths(text)
         tail = _tail(paths)
         local = cls(
@@ -146,6 +147,7 @@ class Inputs:
             if not os.path.isabs(path):
                 target.parent.mkdir(parents=True, exist_ok=True)
                 source = posixpath.normpath(posixpath.join(posixpath.dirname(rig), path))
+                _ensure_there(system, source)
                 system.get_file(source, str(target))
         local.rig.parent.mkdir(parents=True, exist_ok=True)
         local.rig.write_bytes(text)
@@ -166,6 +168,18 @@ class Inputs:
         rig = f"{folder}/{tail}{self.rig.name}"
         store.put(rig, self.rig)
         return rig
+
+
+def _ensure_there(system: Any, path: str) -> None:
+    """Raise `FileNotFoundError` with the URL of a file that does not exist: those of file systems differ."""
+    if not system.exists(path):
+        raise FileNotFoundError(ENOENT, os.strerror(ENOENT), system.unstrip_protocol(path))
+
+
+def _read_from(system: Any, path: str) -> bytes:
+    _ensure_there(system, path)
+    content: bytes = system.cat_file(path)
+    return content
 
 
 def _paths(text: bytes) -> list[str]:
@@ -227,8 +241,7 @@ class Order:
                 inputs = self._inputs(Path(temporary))
                 digest = inputs.digest()
             except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
-                reason = f"{self.shown}: an input cannot be read: {error}"
-                self._put(_error_text(DataError(reason, self.shown)), _NO_INPUTS)
+                self._put(_error_text(_unreadable(error, self.shown)), _NO_INPUTS)
                 return
             if not self.store.is_complete(self.name, self.identity(digest)):
                 self._put(self._diagnosed(inputs.rig, Path(temporary)), digest)
@@ -287,6 +300,12 @@ def _folder(path: str) -> str:
     return path[: path.rfind("/") + 1]
 
 
+def _unreadable(error: OSError, rig: str) -> DataError:
+    """The error of a rig of which a file cannot be read."""
+    file = error.filename if isinstance(error.filename, str) else rig
+    return DataError(f"cannot read {file}: {error.strerror or error}", file)
+
+
 def _error_text(error: RinsError) -> str:
     place = {"file": error.file, "line": error.line, "key": error.key}
     found = {"type": type(error).__name__, "message": str(error), **place}
@@ -343,8 +362,7 @@ class Diagnoses:
             self.errors[number] = error
             return None
         except OSError as error:
-            file = error.filename if isinstance(error.filename, str) else rig
-            self.errors[number] = DataError(f"cannot read {file}: {error.strerror}", file)
+            self.errors[number] = _unreadable(error, rig)
             return None
         if self.store.is_complete(name, identity):
             return None
@@ -356,10 +374,10 @@ class Diagnoses:
         """Remove what was uploaded for a diagnosis."""
         self.store.remove(f"inputs/{self.names[number]}")
 
-    def fail(self, number: int, error: BaseException) -> None:
+    def fail(self, number: int, error: BaseException, what: str) -> None:
         """Keep the exception with which a diagnosis failed on the workers as its result."""
         rig = self.rigs[number]
-        found = DistributedError(f"{rig}: {type(error).__name__}: {error}", rig)
+        found = DistributedError(f"{rig}: {what}: {type(error).__name__}: {error}", rig)
         found.__cause__ = error
         self.errors[number] = found
 

@@ -59,31 +59,42 @@ def run_all(
     name: str,
     retries: int,
     in_flight: int | None,
+    deaths: int,
     done: Callable[[Task], object],
-    failed: Callable[[Task, BaseException, int], object],
+    failed: Callable[[Task, BaseException, str], object],
 ) -> None:
     """Run the tasks, of which the scheduler knows at most `in_flight` at a time.
 
     A task that fails is submitted again up to `retries` times, after 1 s, 2 s, 4 s, … A task whose worker dies is given to
-    another worker by the scheduler; after as many deaths as its setting ``allowed-failures`` permits, this counts as one failure.
-    `done` and `failed` are called in this thread, in the order in which tasks end; an exception of theirs ends the run.
+    another worker by the scheduler; after as many deaths as its setting ``allowed-failures`` permits, it is submitted again, up to
+    `deaths` deaths: most workers do not die of the task that they have. `done` and `failed` are called in this thread, in the order in which tasks end; an exception of theirs ends the run.
     """
-    run = _Run(client, f"{name}-{uuid4().hex[:8]}", retries)
+    run = _Run(client, f"{name}-{uuid4().hex[:8]}", retries, deaths)
     try:
         run.loop(tasks, in_flight, done, failed)
     finally:
         run.cancel()
 
 
+@dataclass
+class _Attempts:
+    """A task and what it has been through."""
+
+    task: Task
+    submitted: int = 0
+    errors: int = 0
+    deaths: int = 0
+
+
 class _Run:
     """The tasks that are on the cluster, and those that wait to be repeated."""
 
-    def __init__(self, client: Any, name: str, retries: int) -> None:
-        self.client, self.name, self.retries = client, name, retries
+    def __init__(self, client: Any, name: str, retries: int, deaths: int) -> None:
+        self.client, self.name, self.retries, self.deaths = client, name, retries, deaths
         self.ended: SimpleQueue[Any] = SimpleQueue()
-        self.active: dict[Any, tuple[Any, Task, int]] = {}
-        # Of each: the time at which it is due, its number, the task, and the number of its failures.
-        self.waiting: list[tuple[float, int, Task, int]] = []
+        self.active: dict[Any, tuple[Any, _Attempts]] = {}
+        # Of each: the time at which it is due, its number, and the task.
+        self.waiting: list[tuple[float, int, _Attempts]] = []
         self.counted = float("-inf")
         self.threads = 1
 
@@ -92,43 +103,57 @@ class _Run:
         tasks: Iterator[Task],
         in_flight: int | None,
         done: Callable[[Task], object],
-        failed: Callable[[Task, BaseException, int], object],
+        failed: Callable[[Task, BaseException, str], object],
     ) -> None:
         is_exhausted = False
         while True:
             while len(self.active) < (in_flight or self._usual_limit()):
                 if self.waiting and self.waiting[0][0] <= time.monotonic():
-                    _, _, task, failures = heapq.heappop(self.waiting)
-                    self._submit(task, failures)
+                    self._submit(heapq.heappop(self.waiting)[2])
                     continue
                 following = None if is_exhausted else next(tasks, None)
                 if following is None:
                     is_exhausted = True
                     break
-                self._submit(following, 0)
+                self._submit(_Attempts(following))
             if is_exhausted and not self.active and not self.waiting:
                 return
             try:
                 future = self.ended.get(timeout=0.25)
             except Empty:
                 continue
-            _, task, failures = self.active.pop(future.key)
+            _, attempts = self.active.pop(future.key)
             error = _error_of(future)
             # Before the next task is submitted, so that the scheduler never knows more.
             future.release()
             if error is None:
-                done(task)
-            elif failures < self.retries:
-                due = time.monotonic() + min(2.0**failures, _LONGEST_DELAY)
-                heapq.heappush(self.waiting, (due, task.number, task, failures + 1))
+                done(attempts.task)
+            elif (delay := self._delay(attempts, error)) is not None:
+                due = time.monotonic() + delay
+                heapq.heappush(self.waiting, (due, attempts.task.number, attempts))
+            elif _deaths_of(error):
+                failed(attempts.task, error, f"{attempts.deaths} workers died while they had it")
             else:
-                failed(task, error, failures + 1)
+                times = "once" if attempts.errors == 1 else f"{attempts.errors} times"
+                failed(attempts.task, error, f"failed {times}")
 
-    def _submit(self, task: Task, failures: int) -> None:
+    def _delay(self, attempts: _Attempts, error: BaseException) -> float | None:
+        """Count an error of a task; the time after which it is repeated [s], None if it is not."""
+        if deaths := _deaths_of(error):
+            attempts.deaths += deaths
+            return 0.0 if attempts.deaths <= self.deaths else None
+        attempts.errors += 1
+        if attempts.errors > self.retries:
+            return None
+        return float(min(2.0 ** (attempts.errors - 1), _LONGEST_DELAY))
+
+    def _submit(self, attempts: _Attempts) -> None:
         # The first part of the key is the name of the group: one group for all tasks, however many there are.
-        key = (self.name, task.number, failures)
+        task = attempts.task
+        key = (self.name, task.number, attempts.submitted)
+        attempts.submitted += 1
         future = self.client.submit(task.call, *task.arguments, key=key, pure=False)
-        self.active[future.key] = (future, task, failures)
+        self.active[future.key] = (future, attempts)
         future.add_done_callback(self.ended.put)
 
     def _usual_limit(self) -> int:
@@ -139,7 +164,7 @@ class _Run:
         return max(2 * self.threads, 4)
 
     def cancel(self) -> None:
-        futures = [future for future, _, _ in self.active.values()]
+        futures = [future for future, _ in self.active.values()]
         if futures and self.client.status == "running":
             self.client.cancel(futures)
 
@@ -152,3 +177,10 @@ def _error_of(future: Any) -> BaseException | None:
         error: BaseException | None = future.exception()
         return error or DistributedError("it failed without an exception")
     return DistributedError(f"it was {future.status} by the scheduler")
+
+
+def _deaths_of(error: BaseException) -> int:
+    """How many workers died before the scheduler gave a task up; zero if its error is another one."""
+    from distributed import KilledWorker
+
+    return error.allowed_failures + 1 if isinstance(error, KilledWorker) else 0

@@ -54,6 +54,7 @@ def monte_carlo(
     output: str | PathLike[str] | None = None,
     force: bool = False,
     retries: int = 5,
+    deaths: int = 100,
     threads: int = 1,
     in_flight: int | None = None,
     storage_options: Mapping[str, Any] | None = None,
@@ -81,8 +82,9 @@ def monte_carlo(
     force : bool
         Whether an existing `output` is replaced. By default that in the store is.
     retries : int
-        How often a shard is repeated after an error. Each death of ``distributed.scheduler.allowed-failures`` workers and one more
-        counts as one error.
+        How often a shard is repeated after an error.
+    deaths : int
+        How many workers may die while they have a shard. Most do not die of it.
     threads : int
         The number of threads of a shard. A worker runs as many shards at a time as it has threads of its own.
     in_flight : int, optional
@@ -102,11 +104,11 @@ def monte_carlo(
     DataError
         If the scenario is invalid, the store cannot be used or holds another campaign, or the output exists.
     DistributedError
-        If a shard failed more often than `retries`; the cause is its last exception. The other shards stay in the store.
+        If a shard failed more often than `retries` and `deaths` permit; the cause is its last exception. The other shards stay in the store.
     """
     ensure_synchronous(client)
     _ensure_numbers({"runs": runs, "threads": threads}, 1)
-    _ensure_numbers({"retries": retries}, 0)
+    _ensure_numbers({"retries": retries, "deaths": deaths}, 0)
     _ensure_numbers({"shards": shards, "in_flight": in_flight}, 1)
     place = Store.at(store, storage_options)
     if shards is None:
@@ -128,6 +130,7 @@ def monte_carlo(
         tasks(),
         name="rins-monte-carlo",
         retries=retries,
+        deaths=deaths,
         in_flight=in_flight,
         done=lambda task: count.add(),
         failed=_give_up,
@@ -136,10 +139,9 @@ def monte_carlo(
     return _merged(campaign, merged, force)
 
 
-def _give_up(task: Task, error: BaseException, failures: int) -> None:
-    times = "once" if failures == 1 else f"{failures} times"
+def _give_up(task: Task, error: BaseException, what: str) -> None:
     raise DistributedError(
-        f"{task.label}: failed {times}, the last time with {type(error).__name__}: {error}",
+        f"{task.label}: {what}, the last time with {type(error).__name__}: {error}",
         getattr(error, "file", None),
         getattr(error, "line", None),
         getattr(error, "key", None),
@@ -191,6 +193,7 @@ def diagnose_many(
     bootstrap: int | None = None,
     upload: bool = True,
     retries: int = 5,
+    deaths: int = 100,
     in_flight: int | None = None,
     storage_options: Mapping[str, Any] | None = None,
     progress: bool | Report = False,
@@ -210,7 +213,7 @@ def diagnose_many(
     upload : bool
         Whether the client copies rig files and logs to the store, for the time of their diagnosis. With False the workers read the
         paths. URLs are always read by the workers.
-    retries, in_flight, storage_options, progress
+    retries, deaths, in_flight, storage_options, progress
         As of `monte_carlo`.
 
     Returns
@@ -230,7 +233,7 @@ def diagnose_many(
     A diagnosis is kept if the SHA-256 of the rig file and of its logs, the arguments and the version of rins are those of its record.
     """
     ensure_synchronous(client)
-    _ensure_numbers({"retries": retries}, 0)
+    _ensure_numbers({"retries": retries, "deaths": deaths}, 0)
     _ensure_numbers({"bootstrap": bootstrap, "in_flight": in_flight}, 1)
     options = Options(
         model=_model(model) if fspath(model) != "full" else "full",
@@ -247,10 +250,10 @@ def diagnose_many(
         diagnoses.end(task.number)
         count.add()
 
-    def failed(task: Task, error: BaseException, failures: int) -> None:
+    def failed(task: Task, error: BaseException, what: str) -> None:
         with contextlib.suppress(OSError):
             diagnoses.end(task.number)
-        diagnoses.fail(task.number, error)
+        diagnoses.fail(task.number, error, what)
         count.add()
 
     run_all(
@@ -258,6 +261,7 @@ def diagnose_many(
         diagnoses.tasks(upload, count.add),
         name="rins-diagnose",
         retries=retries,
+        deaths=deaths,
         in_flight=in_flight,
         done=done,
         failed=failed,
