@@ -30,7 +30,7 @@ EOF
 chmod +x "$folder/cargo"
 
 step "pip install ."
-CARGO="$folder/cargo" MATURIN_PEP517_ARGS="--profile ${PROFILE:-dev}" pip install ".[plot,progress,ros,mcap,px4,hdf5]"
+CARGO="$folder/cargo" MATURIN_PEP517_ARGS="--profile ${PROFILE:-dev}" pip install ".[plot,progress,ros,mcap,px4,hdf5,dask]"
 pip install -r "$package/tests/requirements.txt"
 
 step "pytest"

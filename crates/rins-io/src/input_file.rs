@@ -1,5 +1,6 @@
 //! The identity of an input file: its path and the digest of its content.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -62,10 +63,8 @@ impl InputFile {
     /// # Errors
     /// [`IoError::File`] if one of them cannot be read.
     pub fn of_each<'p>(paths: impl IntoIterator<Item = &'p Path>) -> Result<Vec<Self>, IoError> {
-        let paths: Vec<&Path> = paths.into_iter().collect();
-        let is_first = |&(place, path): &(usize, &Path)| !paths[..place].contains(&path);
-        let each = paths.iter().copied().enumerate().filter(is_first);
-        each.map(|(_, path)| Self::of(path)).collect()
+        let mut before = HashSet::new();
+        paths.into_iter().filter(|path| before.insert(*path)).map(Self::of).collect()
     }
 }
 

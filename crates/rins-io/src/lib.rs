@@ -59,7 +59,8 @@ pub use log::{
 pub use mission::{MissionFile, RotationScheme};
 pub use model::ModelFile;
 pub use output::{
-    Overwrite, ensure_replaceable, ensure_replaceable_folder, write_file, write_files, write_folder,
+    IntermediateFolder, Overwrite, ensure_replaceable, ensure_replaceable_folder, write_file,
+    write_files, write_folder,
 };
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};

@@ -108,6 +108,32 @@ pub fn write_files(
     synchronise(parent).map_err(failed(first))
 }
 
+/// A folder for intermediate files beside an output, which is removed when this value is dropped, and on an interrupt.
+#[derive(Debug)]
+pub struct IntermediateFolder {
+    folder: TempDir,
+    _unfinished: Unfinished,
+}
+
+impl IntermediateFolder {
+    /// Creates it beside the file `output`, whose disk has room for the output.
+    ///
+    /// # Errors
+    /// [`IoError::File`] on a system error.
+    pub fn beside(output: &Path) -> Result<Self, IoError> {
+        let (parent, name) = split(output)?;
+        let (unfinished, folder) =
+            Unfinished::make(|| builder(&hidden(name), 0o700).tempdir_in(parent))
+                .map_err(IoError::file("write", output))?;
+        Ok(Self { folder, _unfinished: unfinished })
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+}
+
 /// Refuses a destination that must not be replaced; a long computation calls it before it starts.
 ///
 /// # Errors

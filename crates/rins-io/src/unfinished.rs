@@ -13,6 +13,7 @@ fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
 }
 
 /// A temporary file or folder, which [`abandon`] removes as long as this value exists.
+#[derive(Debug)]
 pub(crate) struct Unfinished(PathBuf);
 
 impl Unfinished {

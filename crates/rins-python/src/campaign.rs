@@ -36,8 +36,8 @@ pub(crate) fn monte_carlo(
 ) -> PyResult<Outcome> {
     let Campaign { runs, seed, model, noise, truth, output, resume, shard, threads, force } =
         options;
-    if !(1..=100_000_000).contains(&runs) {
-        return Err(argument("runs", "expected 1 to 100000000"));
+    if !(1..=10_000_000_000).contains(&runs) {
+        return Err(argument("runs", "expected 1 to 10000000000"));
     }
     if shard.is_some_and(|(shard, of)| !(1..=of).contains(&shard)) {
         return Err(argument("shard", "expected a shard of so many, such as (2, 5)"));

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import pickle
+import re
 import subprocess
 import sys
 import textwrap
@@ -11,9 +12,12 @@ import threading
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 import rins
 from conftest import RIG, ROOT, SHORT
+from numpy.typing import NDArray
+from rins._rig import Sections
 
 CAMPAIGN = ROOT / "scenarios/paper/section-4-1.toml"
 
@@ -199,6 +203,33 @@ def test_rigs_are_made_of_sections(tmp_path: Path) -> None:
     assert caught.value.key == "[site] latitude"
     odd = 'quote " and \\ and \t'
     assert rins.Rig(**{**sections, "run": {"note": odd}}).sections["run"]["note"] == odd
+
+
+def test_sections_are_those_of_rig_files(columns: dict[str, NDArray[np.float64]]) -> None:
+    source = (ROOT / "crates/rins-io/src/rig/mod.rs").read_text(encoding="utf-8")
+    listed = re.search(r"const SECTIONS: \[&str; \d+\] =\s*\[(.*?)\]", source, re.DOTALL)
+    assert listed is not None
+    assert set(Sections.__annotations__) == set(re.findall(r'"(\w+)"', listed[1]))
+    with pytest.raises(TypeError, match="'mirror' is no section"):
+        rins.Rig(mirror={})  # type: ignore[call-arg]
+
+    given = {"scale": ["0 ppm", "0 ppm", "1 ppm"], "misalignment": {"xz": "30 arcsec"}}
+    rig = rins.read_rig(RIG).sections
+    rec = rins.Recording(
+        columns["t"],
+        columns["gyro"],
+        columns["accel"],
+        table_angle=columns["table_angle"],
+        units={"t": "s", "gyro": "rad", "accel": "m/s", "table_angle": "rad"},
+        axes="xyz",
+        tolerance={"gyro": given},
+        site=rig["site"],
+        imu=rig["imu"],
+    )
+    assert rec.rig.sections["tolerance"] == {"gyro": given}
+    # The embedded run has a scale error of 300 ppm and a misalignment of 60 arcsec.
+    stated = {one["id"]: one["statement"] for one in rins.calibrate(rec, "full")["conformity"]}
+    assert stated == {"gyro.misalignment.xz": "fail", "gyro.scale.z": "fail"}
 
 
 def test_types_are_those_of_the_schemas() -> None:

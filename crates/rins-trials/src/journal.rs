@@ -74,6 +74,16 @@ pub struct Plan {
     pub trials: usize,
     /// How many run at once.
     pub threads: usize,
+    /// The shard to be run, such as (2, 5) for the second of five; (1, 1) for all trials.
+    pub shard: (u64, u64),
+}
+
+impl Plan {
+    /// Whether a trial belongs to the shard.
+    fn has(&self, index: u64) -> bool {
+        let (shard, of) = self.shard;
+        index % of == shard - 1
+    }
 }
 
 /// The records of a journal; a last line that was not finished is left out.
@@ -151,7 +161,8 @@ pub fn run(
     mend(journal, &before)?;
     let done: BTreeSet<u64> =
         before.iter().filter(|r| r.seed == plan.seed && !r.timed).map(|r| r.index).collect();
-    let left: Vec<u64> = (0..plan.trials as u64).filter(|index| !done.contains(index)).collect();
+    let left = (0..plan.trials as u64).filter(|&index| plan.has(index) && !done.contains(&index));
+    let left: Vec<u64> = left.collect();
     let file = Mutex::new(OpenOptions::new().create(true).append(true).open(journal)?);
     at_once(plan.threads, &left, |&index| {
         let trial = match plan.population {
@@ -166,6 +177,47 @@ pub fn run(
         told(&record);
         Ok(())
     })
+}
+
+/// Joins the journals of shards into a journal in the order of trials.
+///
+/// A card depends on the trials, not on their order: that of the merged journal is that of a journal without shards.
+///
+/// # Errors
+/// [`Trouble`] if a journal cannot be read, if trials of different seeds are among them, if one is there twice or missing, or if
+/// the merged journal cannot be written.
+pub fn merge(journals: &[&Path], merged: &Path) -> Result<(), Trouble> {
+    let mut all = Vec::new();
+    for journal in journals {
+        // A journal that does not exist has no records; here it is an error.
+        fs::metadata(journal)?;
+        all.extend(records(journal)?);
+    }
+    all.sort_by_key(|record| record.index);
+    let seed = all.first().map_or(0, |record| record.seed);
+    for (expected, record) in (0..).zip(&all) {
+        if record.seed != seed || record.timed {
+            return Err(Trouble::Foreign {
+                index: record.index,
+                seed: record.seed,
+                expected: seed,
+            });
+        }
+        if record.index != expected {
+            return Err(Trouble::Trials { index: record.index, expected });
+        }
+    }
+    Ok(fs::write(merged, lines(&all)?)?)
+}
+
+/// Records as the lines of a journal.
+fn lines(records: &[Record]) -> Result<String, Trouble> {
+    let mut text = String::new();
+    for record in records {
+        text.push_str(&serde_json::to_string(record)?);
+        text.push('\n');
+    }
+    Ok(text)
 }
 
 /// Runs so many trials of the longest kind, one after the other, to see how long they take.
@@ -197,12 +249,7 @@ fn mend(journal: &Path, whole: &[Record]) -> Result<(), Trouble> {
     }
     let text = fs::read_to_string(journal)?;
     if !text.is_empty() && !text.ends_with('\n') {
-        let mut mended = String::new();
-        for record in whole {
-            mended.push_str(&serde_json::to_string(record)?);
-            mended.push('\n');
-        }
-        fs::write(journal, mended)?;
+        fs::write(journal, lines(whole)?)?;
     }
     Ok(())
 }

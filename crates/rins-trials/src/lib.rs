@@ -50,7 +50,7 @@ pub use hide::Hidden;
 pub use histories::{HistoryTrial, history_page, history_trial};
 pub use injections::{Injection, InjectionTrial};
 pub use injections_page::injections;
-pub use journal::{Plan, Population, Record, records, run, time, try_out};
+pub use journal::{Plan, Population, Record, merge, records, run, time, try_out};
 pub use laboratory::{Grade, Laboratory, Length, Level, Schedule};
 pub use null::null_page;
 pub use outside::Outside;

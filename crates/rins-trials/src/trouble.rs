@@ -21,6 +21,26 @@ pub enum Trouble {
     /// A simulated history that cannot be analyzed.
     #[error("a history cannot be analyzed")]
     History(#[from] rins_history::HistoryError),
+    /// Journals of different trials.
+    #[error(
+        "trial {index} has the seed {seed} or is timed, expected a blind trial of seed {expected}"
+    )]
+    Foreign {
+        /// Its index.
+        index: u64,
+        /// Its seed.
+        seed: u64,
+        /// The seed of the first trial.
+        expected: u64,
+    },
+    /// Journals that are not those of all shards.
+    #[error("trial {index} where trial {expected} is expected, which is missing or there twice")]
+    Trials {
+        /// The index that was found.
+        index: u64,
+        /// The index expected.
+        expected: u64,
+    },
     /// Frozen trials that came out otherwise.
     #[error("{wrong} of {of} frozen trials did not come out as before")]
     Frozen {

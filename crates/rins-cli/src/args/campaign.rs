@@ -12,7 +12,7 @@ pub(crate) struct MonteCarlo {
     /// The scenario file; it may define a parameter grid
     pub(crate) scenario: PathBuf,
     /// Number of runs of each scenario
-    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=10_000_000_000))]
     pub(crate) runs: u64,
     /// The model: paper12 (`M_xz`, `M_yz` and `S_z` by the 12-state filter of Nie et al. (2019)), full (biases, scale errors,
     /// misalignments, attitude of the spin axis), or a model file. Any model other than paper12 is estimated as by `rins calibrate`

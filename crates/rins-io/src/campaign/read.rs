@@ -17,8 +17,11 @@ use super::table::{
 use crate::error::IoError;
 use crate::sound_parquet::SoundParquet;
 
-/// The number of values of all columns together that are buffered while they are converted to rows.
+/// The number of values of all columns of all open files together that are buffered while they are converted to rows.
 const BATCH: usize = 1 << 16;
+
+/// The minimum number of rows that are buffered.
+const LEAST_ROWS: usize = 64;
 
 /// The maximum number of values (rows times columns) of any file, however small it is.
 const MOST_VALUES: u64 = 1 << 28;
@@ -43,6 +46,8 @@ pub struct PartRuns {
     /// The number of row groups that were opened.
     groups: usize,
     batch: Vec<Values>,
+    /// The maximum number of rows of a batch.
+    most_rows: usize,
     /// The next row of the batch.
     row: usize,
     /// The remaining memory for texts \[bytes\].
@@ -65,6 +70,14 @@ impl PartRuns {
     /// # Errors
     /// [`IoError::File`] on a system error, [`IoError::Log`] if the file is not a result file of a campaign in this version.
     pub fn open(path: &Path) -> Result<Self, IoError> {
+        Self::open_one_of(path, 1)
+    }
+
+    /// Opens one of `n_open` result files that are read at the same time and share the memory of the buffers.
+    ///
+    /// # Errors
+    /// As of [`Self::open`].
+    pub fn open_one_of(path: &Path, n_open: usize) -> Result<Self, IoError> {
         let file = SoundParquet::open(path)?;
         let damaged = |error| file.damaged(&error);
         let identity = Identity::from_metadata(file.key_values())
@@ -81,6 +94,7 @@ impl PartRuns {
             readers: Vec::new(),
             groups: 0,
             batch: Vec::new(),
+            most_rows: (BATCH / columns / n_open.max(1)).max(LEAST_ROWS),
             row: 0,
             room,
             last: None,
@@ -103,7 +117,7 @@ impl PartRuns {
             }
             let batch = self.readers.iter_mut();
             self.batch = batch
-                .map(|reader| Values::read(reader, (BATCH / columns).max(1)))
+                .map(|reader| Values::read(reader, self.most_rows))
                 .collect::<Result<_, _>>()
                 .map_err(damaged)?;
             self.row = 0;

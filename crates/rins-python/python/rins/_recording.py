@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from . import _rins
 from ._errors import DataError
-from ._rig import Rig, Section, read_rig
+from ._rig import Rig, Sections, read_rig
 from ._table import Table
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class Recording:
         for each sensor: ``{"gyro": "xyz", "accel": ["x", "-y", "-z"]}``.
     stamp : {"end", "start", "middle"}
         The instant of a sample's interval that `t` refers to.
-    site, attitude, imu, table, axis, run, lab : mapping, optional
+    site, attitude, imu, table, axis, tolerance, run, lab : mapping, optional
         Sections of a rig file.
     log : mapping, optional
         Further keys of ``[log]``, such as ``{"rate": "100 Hz", "table_angle": {"noise": "0.3 arcsec"}}``.
@@ -86,15 +86,8 @@ class Recording:
         table_rate: ArrayLike | None = None,
         temperature: ArrayLike | None = None,
         stamp: str = "end",
-        site: Section | None = None,
-        attitude: Section | None = None,
-        imu: Section | None = None,
-        table: Section | None = None,
-        axis: Section | None = None,
-        run: Section | None = None,
-        lab: Section | None = None,
-        log: Section | None = None,
         name: str = "arrays",
+        **sections: Unpack[Sections],
     ) -> None:
         signals = {
             "t": t,
@@ -119,23 +112,14 @@ class Recording:
                 keys["time"] = {"column": names[0], **own, "stamp": stamp}
             else:
                 keys[signal] = {"column": names[0], **own}
-        for key, further in (log or {}).items():
+        for key, further in (sections.get("log") or {}).items():
             stated = keys.get(key)
             if isinstance(stated, dict) and isinstance(further, Mapping):
                 keys[key] = {**stated, **further}
             else:
                 keys[key] = further
-        self._rig = Rig(
-            site=site,
-            log=keys,
-            attitude=attitude,
-            imu=imu,
-            table=table,
-            axis=axis,
-            run=run,
-            lab=lab,
-            path=name,
-        )
+        sections["log"] = keys
+        self._rig = Rig(path=name, **sections)
         self._log = _rins.Log.of_arrays((self._rig.text, name), name, columns)
 
     @classmethod

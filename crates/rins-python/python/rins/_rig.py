@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack, cast
 
 from . import _rins, _toml
 
@@ -15,6 +15,20 @@ Section = Mapping[str, object]
 """A section of a rig file: keys and quantities with their units, as ``{"latitude": "34.25 deg"}``."""
 
 
+class Sections(TypedDict, total=False):
+    """The sections of a rig file, each optional; None is as if it was not given."""
+
+    site: Section | None
+    log: Section | None
+    attitude: Section | None
+    imu: Section | None
+    table: Section | None
+    axis: Section | None
+    tolerance: Section | None
+    run: Section | None
+    lab: Section | None
+
+
 class Rig:
     """The description of a measurement: site, log, table and data sheets.
 
@@ -22,7 +36,7 @@ class Rig:
 
     Parameters
     ----------
-    site, log, attitude, imu, table, axis, run, lab : mapping, optional
+    site, log, attitude, imu, table, axis, tolerance, run, lab : mapping, optional
         The sections.
     path : str
         The name of the rig in messages, and the folder of files that it names.
@@ -51,31 +65,13 @@ class Rig:
     _text: str
     _path: str
 
-    def __init__(
-        self,
-        *,
-        site: Section | None = None,
-        log: Section | None = None,
-        attitude: Section | None = None,
-        imu: Section | None = None,
-        table: Section | None = None,
-        axis: Section | None = None,
-        run: Section | None = None,
-        lab: Section | None = None,
-        path: str = "rig",
-    ) -> None:
-        given = {
-            "site": site,
-            "log": log,
-            "attitude": attitude,
-            "imu": imu,
-            "table": table,
-            "axis": axis,
-            "run": run,
-            "lab": lab,
-        }
-        sections = {name: one for name, one in given.items() if one is not None}
-        self._set(_toml.document(sections), path)
+    def __init__(self, *, path: str = "rig", **sections: Unpack[Sections]) -> None:
+        for name in sections:
+            if name not in Sections.__annotations__:
+                known = ", ".join(Sections.__annotations__)
+                raise TypeError(f"{name!r} is no section of a rig file, expected one of {known}")
+        given = {name: cast(Section, one) for name, one in sections.items() if one is not None}
+        self._set(_toml.document(given), path)
 
     @classmethod
     def parse(cls, text: str, path: str = "rig") -> Rig:

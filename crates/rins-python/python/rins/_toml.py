@@ -49,7 +49,7 @@ def document(sections: Mapping[str, Mapping[str, object]]) -> str:
         nested = {
             key: one
             for key, one in section.items()
-            if name in ("imu", "truth") and isinstance(one, Mapping)
+            if name in ("imu", "tolerance", "truth") and isinstance(one, Mapping)
         }
         plain = {key: one for key, one in section.items() if key not in nested}
         if plain or not nested:

@@ -6,11 +6,11 @@ use std::process::ExitCode;
 
 use rins_trials::{
     Analyser, Frozen, InjectionTrial, Length, Plan, Population, Record, Trial, Trouble, card,
-    certificates, history_page, history_trial, injections, null_page, records, run, run_frozen,
-    time,
+    certificates, history_page, history_trial, injections, merge, null_page, records, run,
+    run_frozen, time,
 };
 
-const USAGE: &str = "usage: trials run|null RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
+const USAGE: &str = "usage: trials run|null RINS JOURNAL SEED TRIALS THREADS [--shard I/N] [ARGUMENT...] | trials merge MERGED JOURNAL... | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
                      trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER [longest|null] | trials card JOURNAL PAGE | \
                      trials null-page JOURNAL PAGE REVISION | trials histories SEED CAMPAIGNS PAGE REVISION | \
                      trials certificates RINS SEED LABORATORIES THREADS PAGE REVISION | \
@@ -45,15 +45,24 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
     Some(match *words {
         [which @ ("run" | "null"), program, journal, seed, trials, threads, ref more @ ..] => {
             let population = if which == "run" { Population::Blind } else { Population::Null };
+            let (shard, more) = match *more {
+                ["--shard", shard, ref more @ ..] => (self::shard(shard)?, more),
+                _ => ((1, 1), more),
+            };
             let plan = Plan {
                 population,
                 seed: seed.parse().ok()?,
                 trials: trials.parse().ok()?,
                 threads: threads.parse().ok()?,
+                shard,
             };
             let analyser = Analyser::new(program, (cores / plan.threads.max(1)).max(1));
             let analyser = analyser.with(more);
             run(&plan, &analyser, Path::new(journal), told)
+        }
+        ["merge", merged, ref journals @ ..] if !journals.is_empty() => {
+            let journals: Vec<&Path> = journals.iter().map(Path::new).collect();
+            merge(&journals, Path::new(merged))
         }
         ["time", program, journal, seed, trials, ref more @ ..] => {
             let analyser = Analyser::new(program, cores).with(more);
@@ -100,6 +109,13 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
         }
         _ => return None,
     })
+}
+
+/// A shard and how many there are, as in `2/5`.
+fn shard(text: &str) -> Option<(u64, u64)> {
+    let (shard, of) = text.split_once('/')?;
+    let (shard, of) = (shard.parse().ok()?, of.parse().ok()?);
+    (1..=of).contains(&shard).then_some((shard, of))
 }
 
 /// Runs so many campaigns and writes the page of what came of them.

@@ -2,5 +2,6 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests, and not tests themselves, unwrap too")]
 
 mod campaign;
+mod merge;
 mod read_back;
 mod schema;
