@@ -9,8 +9,8 @@ mod seed;
 mod source;
 
 pub use imu::{ImuNoise, ImuNoiseError, ImuNoiseSource};
-pub use model::{GaussMarkov, NoiseError, NoiseModel, Quantisation, Span};
-pub use process::{BiasProcess, BiasStep};
+pub use model::{NoiseError, NoiseModel, Quantisation, Span};
+pub use process::{BiasProcess, BiasStep, GaussMarkov};
 pub use quantiser::rounded;
 pub use seed::{NormalStream, Seed, Sensor};
 pub use source::TriadNoise;

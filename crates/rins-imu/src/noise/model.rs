@@ -1,6 +1,6 @@
 //! The components of the random error of a triad.
 
-use super::process::BiasProcess;
+use super::process::{BiasProcess, GaussMarkov};
 use crate::spec::TriadSpec;
 
 /// The random errors of each sensor of a triad, all independent. The default is none.
@@ -22,15 +22,6 @@ pub struct NoiseModel {
     pub flicker: Option<f64>,
     /// The resolution of the output.
     pub quantisation: Option<Quantisation>,
-}
-
-/// A first-order Gauss-Markov process with the autocovariance σ² exp(-|t|/T).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GaussMarkov {
-    /// Its standard deviation σ \[rate\].
-    pub sigma: f64,
-    /// The correlation time T, in which the correlation decreases by a factor e \[s\].
-    pub correlation_time: f64,
 }
 
 /// The least significant bit of a sensor's output.

@@ -1,6 +1,13 @@
 //! Random bias processes, discretized exactly over an interval of any length.
 
-use super::model::GaussMarkov;
+/// A first-order Gauss-Markov process with the autocovariance σ² exp(-|t|/T).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GaussMarkov {
+    /// Its standard deviation σ \[rate\].
+    pub sigma: f64,
+    /// The correlation time T, in which the correlation decreases by a factor e \[s\].
+    pub correlation_time: f64,
+}
 
 /// A random bias process of one sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]

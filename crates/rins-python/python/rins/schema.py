@@ -1842,7 +1842,8 @@ class MissionBudgetResult(TypedDict):
     """The radial position error, 1σ [nmi]."""
 
     source: str
-    """The id of the parameter, `initial attitude` or `white noise`."""
+    """The id of the parameter, `initial attitude`, or `white noise`; `noise` if it includes
+    bias instability or random walk."""
 
 
 class MissionResult(TypedDict):
@@ -2492,6 +2493,9 @@ class SchemeResult(TypedDict):
     east_nmi: NotRequired[list[float] | None]
     """The position error east by the stated errors [nmi]; null if none are stated."""
 
+    heading_rms_arcsec: NotRequired[list[float] | None]
+    """The root mean square of the heading error [arcsec]."""
+
     hours: list[float]
     """The time since the start [h]."""
 
@@ -2502,11 +2506,30 @@ class SchemeResult(TypedDict):
     name: str
     """Its name."""
 
+    nmi_per_hour: NotRequired[float | None]
+    """The TRMS at the end divided by the time [nmi/h]."""
+
     north_nmi: NotRequired[list[float] | None]
     """The same north."""
 
+    simulated: NotRequired[SimulatedResult | None]
+    """The same position errors of simulated missions; null if none were simulated."""
+
+    tilt_rms_arcsec: NotRequired[list[float] | None]
+    """The root mean square of the tilt, both axes together [arcsec]."""
+
+    trms_before_nmi: NotRequired[list[float] | None]
+    """The TRMS with the uncertainties of the data sheet, before the calibration [nmi]; null if
+    no calibration is given."""
+
     trms_nmi: NotRequired[list[float] | None]
     """The root mean square of the radial position error [nmi] (TRMS)."""
+
+    velocity_rms_m_s: NotRequired[list[float] | None]
+    """The root mean square of the horizontal velocity error [m/s]."""
+
+    want: NotRequired[WantResult | None]
+    """Which uncertainties hold the wanted figure; null if none is wanted."""
 
 
 class ScoreResult(TypedDict):
@@ -2632,6 +2655,38 @@ class SimulateResult(TypedDict):
 
     turns: float
     """How often the table turns, either way."""
+
+
+class SimulatedResult(TypedDict):
+    """The position errors of simulated missions, navigated by strapdown with drawn errors; a
+    list has a value for each time."""
+
+    cep50_nmi: list[float]
+    """The median of the radial position error [nmi]."""
+
+    cep50_within_nmi: list[list[float]]
+    """Its interval of 95 %."""
+
+    cep95_nmi: list[float]
+    """The radius that holds 95 % of the missions [nmi]."""
+
+    runs: int
+    """The number of missions."""
+
+    sample_rate_hz: float
+    """The sampling rate of the navigation [Hz]."""
+
+    seconds: float
+    """The time that the simulation took [s]."""
+
+    seed: int
+    """The seed of their errors."""
+
+    trms_nmi: list[float]
+    """The root mean square of the radial position error [nmi]."""
+
+    trms_within_nmi: list[list[float]]
+    """Its interval of 95 %."""
 
 
 class StaticIntervalResult(TypedDict):
@@ -2828,6 +2883,54 @@ class VerdictResult(TypedDict):
 
     verdict: str
     """`good`, `fact`, `odd` or `bad`."""
+
+
+class WantResult(TypedDict):
+    """The uncertainties that hold a wanted TRMS."""
+
+    fixed_nmi: float
+    """The position error by noise and the initial attitude alone, 1σ [nmi]."""
+
+    hours: float
+    """The time since the start [h]."""
+
+    parameters: list[WantedParameterResult]
+    """The parameters, those that must improve most first."""
+
+    possible: bool
+    """Whether better sensor errors can hold it: noise and the initial attitude alone must leave
+    less."""
+
+    present_nmi: float
+    """The TRMS with the present uncertainties, as independent errors [nmi]."""
+
+    reached_nmi: float
+    """The TRMS with the uncertainties that are asked for [nmi]."""
+
+    simulated_nmi: NotRequired[float | None]
+    """The same by simulated missions [nmi]; null if none were simulated."""
+
+    trms_nmi: float
+    """The wanted TRMS [nmi]."""
+
+
+class WantedParameterResult(TypedDict):
+    """What is asked of a parameter."""
+
+    asked: float
+    """The standard deviation that is asked for."""
+
+    id: str
+    """Its id."""
+
+    present: float
+    """The present standard deviation."""
+
+    share_nmi: float
+    """The radial position error that the latter causes, 1σ [nmi]."""
+
+    unit: str
+    """Their unit."""
 
 
 class WorstResult(TypedDict):

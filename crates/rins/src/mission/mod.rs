@@ -1,5 +1,7 @@
 //! What a system is worth in service: navigation errors over days, scheme by scheme.
 
+mod case;
+mod figure;
 mod outcome;
 mod page;
 mod radial;
@@ -16,14 +18,15 @@ use rayon::prelude::*;
 use rins_io::{Calibration, InputFile, MissionFile};
 use rins_terms::Model;
 
+use self::case::Case;
+pub use self::figure::WantedFigure;
 pub(crate) use self::result::NAUTICAL_MILE;
 pub use self::result::{
     BudgetResult, MissionResult, SchemeResult, SimulatedResult, WantResult, WantedParameterResult,
 };
-use self::scheme::{Case, SchemeInService};
+use self::scheme::SchemeInService;
 use self::simulated::{Simulated, Wish};
 use self::uncertainty::Uncertainty;
-pub use self::want::WantedFigure;
 use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::progress::Progress;

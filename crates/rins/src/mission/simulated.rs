@@ -9,7 +9,7 @@ use rins_design::{Draw, Voyage};
 use rins_imu::{Seed, Sensor};
 use rins_motion::CarriedTable;
 
-use super::scheme::Case;
+use super::case::Case;
 use super::uncertainty::{Uncertainty, drawn};
 use crate::progress::Stage;
 
