@@ -151,14 +151,8 @@ def test_damaged_shards_are_computed_again_and_no_others(
     (store / "campaign.parquet").unlink()
 
     reports: list[tuple[str, int | None, int | None]] = []
-    rins.distributed.monte_carlo(
-        client,
-        scenario,
-        RUNS,
-        store=store,
-        seed=7,
-        progress=lambda *report: reports.append(report),
-    )
+    call: dict[str, Any] = {"seed": 7, "progress": lambda *report: reports.append(report)}
+    rins.distributed.monte_carlo(client, scenario, RUNS, store=store, **call)
     after = times(store)
     changed = {name for name, time in after.items() if time != damaged[name]}
     assert changed == {cut, altered, unrecorded, foreign}
@@ -274,7 +268,7 @@ def test_scheduler_knows_few_tasks_at_a_time(client: Any) -> None:
     assert sorted(ended) == list(range(600))
     # Of 600, as many as are in flight, and those whose release is on its way.
     assert len(known) == 12 and max(known) <= 16
-    groups = client.run_on_scheduler(group_names)
+    groups = client.run_on_scheduler(lambda dask_scheduler: list(dask_scheduler.task_groups))
     assert sum("few" in group for group in groups) <= 1
 
 
@@ -320,10 +314,6 @@ def scheduler_tasks(client: Any) -> int:
 
     number: int = client.run_on_scheduler(count)
     return number
-
-
-def group_names(dask_scheduler: Any) -> list[str]:
-    return list(dask_scheduler.task_groups)
 
 
 def without_time(text: str) -> str:

@@ -67,7 +67,8 @@ def run_all(
 
     A task that fails is submitted again up to `retries` times, after 1 s, 2 s, 4 s, … A task whose worker dies is given to
     another worker by the scheduler; after as many deaths as its setting ``allowed-failures`` permits, it is submitted again, up to
-    `deaths` deaths: most workers do not die of the task that they have. `done` and `failed` are called in this thread, in the order in which tasks end; an exception of theirs ends the run.
+    `deaths` deaths: most workers do not die of the task that they have. `done` and `failed` are called in this thread, in the order
+    in which tasks end; an exception of theirs ends the run.
     """
     run = _Run(client, f"{name}-{uuid4().hex[:8]}", retries, deaths)
     try:

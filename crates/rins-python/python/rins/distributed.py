@@ -104,7 +104,8 @@ def monte_carlo(
     DataError
         If the scenario is invalid, the store cannot be used or holds another campaign, or the output exists.
     DistributedError
-        If a shard failed more often than `retries` and `deaths` permit; the cause is its last exception. The other shards stay in the store.
+        If a shard failed more often than `retries` and `deaths` permit; the cause is its last exception. The other shards stay in
+        the store.
     """
     ensure_synchronous(client)
     _ensure_numbers({"runs": runs, "threads": threads}, 1)
