@@ -4,10 +4,12 @@ mod combination;
 mod ecdf;
 mod interval;
 mod quantity;
+mod run;
 mod tally;
 
 pub use self::combination::{Combinations, DETERMINED, Nees};
 pub use self::ecdf::{EcdfBand, POINTS};
 pub use self::interval::clopper_pearson;
 pub use self::quantity::{COVERAGES, Coverage, QuantityStatistics};
-pub use self::tally::{PosteriorRun, PosteriorStatistics, PosteriorTally};
+pub use self::run::PosteriorRun;
+pub use self::tally::{PosteriorStatistics, PosteriorTally};
