@@ -194,7 +194,7 @@ fn badge(calibrated: Option<bool>) -> Cell {
     match calibrated {
         Some(true) => Cell::badge(Tone::Good, "calibrated"),
         Some(false) => Cell::badge(Tone::Bad, "not calibrated"),
-        None => Cell::badge(Tone::Neutral, "prior-dominated"),
+        None => Cell::badge(Tone::Neutral, "not tested"),
     }
 }
 
@@ -222,7 +222,11 @@ fn parameters(cell: &Scored<'_>, statistics: &PosteriorStatistics, verdicts: &Ve
             Observability::InCombination | Observability::Unobservable => Tone::Warning,
         };
         cells.push(badge(verdicts.parameters[place]));
-        cells.push(Cell::badge(tone, observability.words()));
+        let words = match observability {
+            Observability::InCombination => "in combination",
+            other => other.words(),
+        };
+        cells.push(Cell::badge(tone, words));
         cells
     };
     Table {
