@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::tally::PosteriorRun;
+use super::posterior::PosteriorRun;
 
 /// A parameter or a combination is well determined if its posterior sigma is below this fraction of its prior sigma.
 pub const DETERMINED: f64 = 0.5;

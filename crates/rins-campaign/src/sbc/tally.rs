@@ -1,10 +1,9 @@
 //! The runs of one scenario: accumulated posteriors, and what they say together.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::combination::{Combinations, Nees};
 use super::ecdf::EcdfBand;
 use super::interval::mean_square_bounds;
+use super::posterior::PosteriorRun;
 use super::quantity::{Comparison, QuantityStatistics, QuantityTally};
 
 /// The probability that consistent covariances are outside the bounds of [`PosteriorStatistics::nees_bounds`].
@@ -12,35 +11,6 @@ const SIGNIFICANCE: f64 = 0.01;
 
 /// The probability of the simultaneous confidence band.
 const BAND: f64 = 0.95;
-
-/// The Gaussian posterior of a run with the true values, in any units.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PosteriorRun {
-    /// The true values (n).
-    pub truth: Vec<f64>,
-    /// The estimates (n).
-    pub estimate: Vec<f64>,
-    /// The prior sigmas (n).
-    pub prior_sigmas: Vec<f64>,
-    /// The posterior covariance (n × n).
-    pub covariance: DMatrix<f64>,
-}
-
-impl PosteriorRun {
-    /// Whether all numbers are finite, and all variances positive.
-    pub fn is_sound(&self) -> bool {
-        let numbers = self.truth.iter().chain(&self.estimate).chain(&self.prior_sigmas);
-        numbers.chain(&self.covariance).all(|number| number.is_finite())
-            && self.prior_sigmas.iter().chain(&self.covariance.diagonal()).all(|own| *own > 0.0)
-    }
-
-    /// The errors, estimate minus truth, in units of the prior sigmas.
-    pub(super) fn scaled_error(&self) -> DVector<f64> {
-        DVector::from_fn(self.truth.len(), |row, _| {
-            (self.estimate[row] - self.truth[row]) / self.prior_sigmas[row]
-        })
-    }
-}
 
 /// The accumulated posteriors of the runs of one scenario; only sums and counts are kept.
 ///

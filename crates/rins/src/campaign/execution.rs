@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use rins_campaign::{Chunk, chunks};
 use rins_io::{Identity, IoError, Journal, JournalRun, Overwrite, RunRows, shown};
 
-use super::monte_carlo::MonteCarloOptions;
+use super::options::MonteCarloOptions;
 
 /// The interval between synchronizations of the journal with the disk.
 const SYNCHRONISED_EVERY: Duration = Duration::from_secs(1);

@@ -4,6 +4,7 @@ mod execution;
 mod merge;
 mod model;
 mod monte_carlo;
+mod options;
 mod outcome;
 mod page;
 mod paper;
@@ -13,6 +14,7 @@ mod size;
 
 pub use self::merge::merge;
 pub use self::model::{CombinationResult, CoverageResult, PosteriorResult, RankBandResult};
-pub use self::monte_carlo::{MonteCarloOptions, TruthChoice, monte_carlo};
+pub use self::monte_carlo::monte_carlo;
+pub use self::options::{MonteCarloOptions, TruthChoice};
 pub use self::outcome::CampaignOutcome;
 pub use self::result::{CampaignResult, CellResult, ScatterResult};

@@ -14,7 +14,7 @@ use rins_terms::FreeParameter;
 use super::run::{CampaignParameter, ModelRun, numbers, to_journal};
 use super::truth::{TrueModel, drawn};
 use crate::campaign::execution::Runs;
-use crate::campaign::monte_carlo::{MonteCarloOptions, TruthChoice};
+use crate::campaign::options::{MonteCarloOptions, TruthChoice};
 use crate::log::Log;
 use crate::options::{NamedModel, NoiseChoice};
 use crate::preparation::{EstimationProblem, Prepared};

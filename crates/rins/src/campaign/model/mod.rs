@@ -5,6 +5,7 @@ mod deliver;
 mod page;
 mod result;
 mod run;
+mod scored;
 mod text;
 mod truth;
 

@@ -4,8 +4,8 @@ use rins_campaign::{EcdfBand, PosteriorStatistics, QuantityStatistics};
 use rins_io::Heading;
 use rins_report::{Band, Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone};
 
-use super::deliver::Scored;
 use super::result::{Observability, Verdicts, in_words};
+use super::scored::Scored;
 use super::text::{p_value, ranks, setting, size};
 use crate::campaign::outcome::label;
 

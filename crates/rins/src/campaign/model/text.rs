@@ -6,8 +6,8 @@ use rins_campaign::{PosteriorStatistics, QuantityStatistics};
 use rins_io::Heading;
 use rins_report::number::{estimate, figure};
 
-use super::deliver::Scored;
 use super::result::{Verdicts, in_words};
+use super::scored::Scored;
 use crate::campaign::outcome::label;
 
 /// How the campaign was made, in one sentence.
