@@ -21,8 +21,8 @@ use crate::proposal::suggested::at_frequency;
 
 pub(crate) use self::state::{State, Tried};
 
-/// The most effects of a hypothesis: a bound of the search's time, well above what measured logs show.
-pub(crate) const MOST_EFFECTS: usize = 16;
+/// The most effects of a hypothesis: more of them stand for what the catalogue does not have.
+pub(crate) const MOST_EFFECTS: usize = 8;
 
 /// The most moves that are fitted in one round.
 const FITTED: usize = 3;
