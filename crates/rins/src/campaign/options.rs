@@ -30,7 +30,7 @@ impl TruthChoice {
     }
 }
 
-/// The options of [`monte_carlo`].
+/// The options of [`monte_carlo`](crate::monte_carlo).
 #[derive(Clone, Debug)]
 pub struct MonteCarloOptions {
     /// The number of runs of each scenario.
