@@ -103,6 +103,51 @@ fn voyage_at_rest_is_the_service_ashore() {
     }
 }
 
+/// The shipped case, navigated by strapdown for three days under every scheme: the linear model, and figures of an independent one.
+#[test]
+fn three_days_of_strapdown_are_the_linear_model() {
+    let dwell = Segment { rate: 0.0, duration: 300.0 };
+    let quarter = |rate: f64| [dwell, Segment { rate, duration: 0.25 * TURN }];
+    let four = [RATE, RATE, RATE, -RATE, -RATE, -RATE].into_iter().flat_map(quarter).collect();
+    let (model, places) = model();
+    let errors: Vec<f64> = model
+        .ids()
+        .map(|id| match id.as_str() {
+            id if id.starts_with("gyro.bias") => 0.01 * DEG_PER_HOUR,
+            id if id.starts_with("gyro.scale") => 5.0 * PPM,
+            "gyro.misalignment.xz" | "gyro.misalignment.yz" => 5.0 * ARCSEC,
+            id if id.starts_with("accel.bias") => 20.0 * MICRO_G,
+            _ => 0.0,
+        })
+        .collect();
+    let times = [24.0 * HOUR, 48.0 * HOUR, 72.0 * HOUR];
+    let silent = NoiseModel::default();
+    for (cycle, figures) in [
+        (vec![Segment { rate: 0.0, duration: HOUR }], vec![(0, 14.78)]),
+        (vec![Segment { rate: RATE, duration: TURN }], vec![(0, 85.08)]),
+        (reciprocating(), vec![(0, 7.444), (2, 21.88)]),
+        (four, vec![(0, 7.46)]),
+    ] {
+        let place = (station(45.0), Dcm::identity());
+        let table = CarriedTable::new(place, Carrier::at_rest(), &cycle, false).unwrap();
+        let (model, parameters) = (&model, &places[..]);
+        let voyage = Voyage { table: &table, model, parameters, noise: [&silent; 2] };
+        let draw = Draw { errors: errors.clone(), attitude: Vector3::zeros(), seed: Seed::new(1) };
+        let full = &voyage.simulated(&[draw], 0.2, &times, &|_| {}).unwrap()[0];
+        let nautical = |meters: f64| meters / 1852.0;
+        for (place, grown) in voyage.growth(&times).unwrap().iter().enumerate() {
+            let [east, north] = grown.position(&errors);
+            let off = (east - full[place][0]).hypot(north - full[place][1]);
+            let size = full[place][0].hypot(full[place][1]);
+            assert!(off < 0.01 * size, "{place}: {off} m of {size} m");
+        }
+        for (place, figure) in figures {
+            let east = nautical(full[place][0]);
+            assert!((east / figure - 1.0).abs() < 0.01, "{east} nmi, not {figure}");
+        }
+    }
+}
+
 /// What is left of strapdown navigation beside the linear model is of second order, with legs and sway, isolated or not.
 #[test]
 fn strapdown_under_way_differs_by_the_second_order() {
