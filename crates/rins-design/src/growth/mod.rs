@@ -20,6 +20,7 @@ mod piece;
 mod sensitivity;
 mod service;
 mod simulation;
+mod system;
 mod voyage;
 
 use std::collections::HashMap;

@@ -1,11 +1,11 @@
 //! The growth of navigation errors over a piece of constant table rate.
 
-use nalgebra::{Matrix2, SMatrix};
-use rins_frames::EARTH_RATE;
+use nalgebra::{Matrix2, SMatrix, Vector3};
 use rins_terms::Surroundings;
 
 use super::input::{HARMONICS, Input};
 use super::service::{GROWTH_STATES, Growth, Square};
+use super::system::system;
 
 /// The states with a cosine and a sine for each.
 const DRIVEN: usize = 3 * GROWTH_STATES;
@@ -28,7 +28,9 @@ impl Piece {
         (rate, duration): (f64, f64),
         noise: [f64; 2],
     ) -> Self {
-        let system = system(surroundings);
+        let station = surroundings.station;
+        let at_rest = Vector3::zeros();
+        let system = system(&at_rest, &(Vector3::z() * station.gravity), &station.site);
         let driven = |order: usize| driven(&system, order as f64 * rate, duration);
         Self {
             transition: (system * duration).exp(),
@@ -49,32 +51,6 @@ impl Piece {
         now.by_start = transition * now.by_start;
         now.by_noise = transition * now.by_noise * transition.transpose() + noise;
     }
-}
-
-/// The matrix `A` of `x' = A x + u`.
-fn system(surroundings: &Surroundings) -> Square {
-    let station = surroundings.station;
-    let site = station.site;
-    let (sin, cos) = site.latitude.sin_cos();
-    let (north, up) = (EARTH_RATE * cos, EARTH_RATE * sin);
-    let meridian = site.meridian_radius() + site.height;
-    let transverse = site.transverse_radius() + site.height;
-    let gravity = station.gravity;
-    let mut system = Square::zeros();
-    let mut set = |row: usize, entries: &[(usize, f64)]| {
-        for &(column, value) in entries {
-            system[(row, column)] = value;
-        }
-    };
-    // -ω_ie × φ, and δω_in by the velocity (3, 4) and the latitude (5).
-    set(0, &[(1, up), (2, -north), (4, -1.0 / meridian)]);
-    set(1, &[(0, -up), (3, 1.0 / transverse), (5, -up / meridian)]);
-    set(2, &[(0, north), (3, sin / cos / transverse), (5, north / meridian)]);
-    set(3, &[(1, -gravity), (4, 2.0 * up)]);
-    set(4, &[(0, gravity), (3, -2.0 * up)]);
-    set(5, &[(4, 1.0)]);
-    set(6, &[(3, 1.0)]);
-    system
 }
 
 /// `∫ exp(A (T - t)) cos(k ω t) dt` and the same with the sine, over a piece: blocks of one matrix exponential.

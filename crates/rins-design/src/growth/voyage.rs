@@ -1,13 +1,14 @@
 //! The growth of navigation errors of a carried table: the linear model in short steps.
 
-use nalgebra::{Matrix3, SMatrix, Vector3};
-use rins_frames::{EARTH_RATE, Site};
+use nalgebra::{Matrix3, SMatrix};
+use rins_frames::Site;
 use rins_imu::{BiasProcess, NoiseModel, Span};
-use rins_motion::{CarriedState, CarriedTable};
+use rins_motion::CarriedTable;
 use rins_terms::{Model, Surroundings};
 
 use super::sensitivity::Sensitivity;
 use super::service::{Columns, Square};
+use super::system::system;
 use super::{GROWTH_STATES, Growth, GrowthError};
 
 /// The interval in which flicker noise is approximated \[s\].
@@ -117,7 +118,7 @@ impl Voyage<'_> {
         let middle_time = now.time + 0.5 * step;
         let middle_site = table.advanced(site, now.time, middle_time);
         let middle = table.state(middle_time, &middle_site);
-        let a = system(&middle, &middle_site);
+        let a = system(&middle.velocity, &middle.force, &middle_site);
         let squared = a * a;
         // The transition from an instant of the step, so long before its end, to the end.
         let transition_over = |time: f64| {
@@ -204,50 +205,4 @@ fn of_triad(triad: usize, nav_from_body: &Matrix3<f64>) -> SMatrix<f64, GROWTH_S
         reach.fixed_view_mut::<2, 3>(3, 0).copy_from(&nav_from_body.fixed_view::<2, 3>(0, 0));
     }
     reach
-}
-
-/// The matrix `A` of `x' = A x + u` at a place and a velocity.
-fn system(state: &CarriedState, site: &Site) -> Square {
-    let (sin, cos) = site.latitude.sin_cos();
-    let tan = sin / cos;
-    let meridian = site.meridian_radius() + site.height;
-    let transverse = site.transverse_radius() + site.height;
-    let v = state.velocity;
-    let earth = Vector3::new(0.0, EARTH_RATE * cos, EARTH_RATE * sin);
-    let transport = Vector3::new(-v.y / meridian, v.x / transverse, v.x * tan / transverse);
-    let nav = earth + transport;
-    // The change of the Earth's and of the transport rate by each of δv east, δv north and δr north.
-    let of_earth = [
-        Vector3::zeros(),
-        Vector3::zeros(),
-        Vector3::new(0.0, -EARTH_RATE * sin, EARTH_RATE * cos) / meridian,
-    ];
-    let of_transport = [
-        Vector3::new(0.0, 1.0, tan) / transverse,
-        Vector3::new(-1.0 / meridian, 0.0, 0.0),
-        Vector3::new(0.0, 0.0, v.x / (cos * cos * transverse * meridian)),
-    ];
-    let mut system = Square::zeros();
-    system.fixed_view_mut::<3, 3>(0, 0).copy_from(&-nav.cross_matrix());
-    system
-        .fixed_view_mut::<2, 3>(3, 0)
-        .copy_from(&state.force.cross_matrix().fixed_view::<2, 3>(0, 0));
-    let coriolis = (earth + nav).cross_matrix();
-    system.fixed_view_mut::<2, 2>(3, 3).copy_from(&-coriolis.fixed_view::<2, 2>(0, 0));
-    for place in 0..3 {
-        let change = of_earth[place] + of_transport[place];
-        let force = (of_earth[place] + change).cross(&v);
-        for axis in 0..3 {
-            system[(axis, 3 + place)] += change[axis];
-        }
-        for axis in 0..2 {
-            system[(3 + axis, 3 + place)] -= force[axis];
-        }
-    }
-    system[(5, 4)] = 1.0;
-    system[(6, 3)] = 1.0;
-    // East is measured along the circle of latitude.
-    system[(6, 5)] = v.x * tan / meridian;
-    system[(6, 6)] = -v.y * tan / meridian;
-    system
 }

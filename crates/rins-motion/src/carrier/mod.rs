@@ -5,6 +5,7 @@ mod sway;
 mod table;
 
 use nalgebra::{ComplexField, Matrix3, Vector3};
+use rins_frames::{Dcm, Nav};
 
 use self::course::Course;
 pub use self::course::{CarrierError, Leg};
@@ -83,9 +84,9 @@ impl Carrier {
         let velocity = ahead * speed + Vector3::z() * heave[1];
         let acceleration = ahead * acceleration + across * (speed * turn) + Vector3::z() * heave[2];
         let (yaw, yaw_rate) = (yawing[0] - heading, yawing[1] - turn);
-        let by_yaw = about(2, yaw);
-        let by_pitch = about(0, pitch[0]);
-        let by_roll = about(1, roll[0]);
+        let by_yaw = *Dcm::<Nav, Nav>::about_z(yaw).matrix();
+        let by_pitch = *Dcm::<Nav, Nav>::about_x(pitch[0]).matrix();
+        let by_roll = *Dcm::<Nav, Nav>::about_y(roll[0]).matrix();
         let rate = by_roll.transpose()
             * (by_pitch.transpose() * (Vector3::z() * yaw_rate) + Vector3::x() * pitch[1])
             + Vector3::y() * roll[1];
@@ -109,18 +110,6 @@ impl Carrier {
     pub fn next_corner(&self, time: f64) -> f64 {
         self.course.next_corner(time)
     }
-}
-
-/// The rotation by an angle \[rad\] about one of the axes.
-fn about(axis: usize, angle: f64) -> Matrix3<f64> {
-    let (sin, cos) = ComplexField::sin_cos(angle);
-    let (one, two) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut rotation = Matrix3::identity();
-    rotation[(one, one)] = cos;
-    rotation[(two, two)] = cos;
-    rotation[(one, two)] = -sin;
-    rotation[(two, one)] = sin;
-    rotation
 }
 
 #[cfg(test)]

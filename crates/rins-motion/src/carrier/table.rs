@@ -1,9 +1,9 @@
 //! A single-axis table on a carrier, and the output of a perfect IMU on it.
 
 use nalgebra::{ComplexField, Matrix3, Vector3};
-use rins_frames::{Dcm, InFrame, Increments, Nav, Site, Table};
+use rins_frames::{Body, Dcm, InFrame, Increments, Nav, Site, Table};
 
-use super::{Carrier, CarrierState, about};
+use super::{Carrier, CarrierState};
 use crate::station::Station;
 use crate::turntable::{Profile, Segment};
 
@@ -99,7 +99,8 @@ impl CarriedTable {
             angle -= carrier.yaw;
             rate -= carrier.yaw_rate;
         }
-        let carrier_from_body = self.mounting.matrix() * about(2, angle);
+        let carrier_from_body =
+            self.mounting.matrix() * Dcm::<Table, Body>::about_z(angle).matrix();
         let nav_from_body = carrier.attitude * carrier_from_body;
         let v = carrier.velocity;
         let transport = Vector3::new(

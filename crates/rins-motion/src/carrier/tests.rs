@@ -11,7 +11,7 @@ fn station() -> Station {
     Station::with_normal_gravity(Site { latitude: 50.0 * DEG, longitude: 0.1, height: 20.0 })
 }
 
-fn tilted() -> Dcm<rins_frames::Nav, Table> {
+fn tilted() -> Dcm<Nav, Table> {
     EulerAngles { roll: 3.0 * DEG, pitch: -4.0 * DEG, yaw: 30.0 * DEG }.dcm()
 }
 
@@ -97,7 +97,7 @@ fn navigator_follows_the_carrier() {
         assert!(north.hypot(east) < most, "{north} {east} m");
 
         assert!((state.velocity.components() - truth.velocity).norm() < 1e-3);
-        let body: Dcm<rins_frames::Nav, Body> = Dcm::from_matrix(truth.nav_from_body).unwrap();
+        let body: Dcm<Nav, Body> = Dcm::from_matrix(truth.nav_from_body).unwrap();
         let off = (state.nav_from_body * body.inverse()).rotation_vector().norm();
         assert!(off < 1e-7, "{off} rad");
     }

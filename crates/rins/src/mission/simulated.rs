@@ -81,11 +81,9 @@ impl Simulated {
             .collect();
         let (model, parameters) = (case.model, case.places);
         let voyage = Voyage { table, model, parameters, noise: of.noise.each_ref() };
-        let portion = draws.len().div_ceil(rayon::current_num_threads());
-        let portion = portion.next_multiple_of(SIDE_BY_SIDE);
         let heard = |_: usize| wish.stage.done(wish.done.fetch_add(1, Ordering::Relaxed) + 1);
         let found: Vec<Vec<Vec<[f64; 2]>>> = draws
-            .par_chunks(portion)
+            .par_chunks(portion(draws.len()))
             .map(|draws| voyage.simulated(draws, case.file.sample_interval, times, &heard))
             .collect::<Result<_, _>>()?;
         let found: Vec<Vec<[f64; 2]>> = found.into_iter().flatten().collect();
@@ -103,9 +101,13 @@ impl Simulated {
     /// How often `done` is heard for these times.
     pub(super) fn steps(runs: u32, times: usize) -> usize {
         let runs = runs as usize;
-        let portion = runs.div_ceil(rayon::current_num_threads()).next_multiple_of(SIDE_BY_SIDE);
-        runs.div_ceil(portion) * times
+        runs.div_ceil(portion(runs)) * times
     }
+}
+
+/// The number of draws of each thread.
+fn portion(draws: usize) -> usize {
+    draws.div_ceil(rayon::current_num_threads()).next_multiple_of(SIDE_BY_SIDE)
 }
 
 impl SampleSpread {
