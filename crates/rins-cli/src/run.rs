@@ -182,6 +182,7 @@ fn run_design(arguments: &Arguments, design: &Design) -> anyhow::Result<()> {
         max_acceleration: design.max_acceleration,
         directions: design.directions,
         tilts: design.tilts.clone(),
+        mountings: design.mountings.clone(),
         service: design.service.clone(),
         progress: drawn(),
     };

@@ -12,11 +12,13 @@
 //! **What it does not do.** It reads no files and decides nothing about measured data.
 
 mod budget;
+mod candidate;
 mod coverage;
 mod effect;
 mod error;
 mod growth;
 mod library;
+mod limits;
 mod next;
 mod optimum;
 mod pair;
@@ -24,11 +26,13 @@ mod planned;
 mod proposal;
 
 pub use budget::{Budget, Contribution, Drift, EstimatedParameter, Truth};
+pub use candidate::Candidate;
 pub use coverage::{COVERAGE, coverage_factor};
 pub use effect::Effect;
 pub use error::DesignError;
 pub use growth::{Draw, GROWTH_STATES, Growth, GrowthError, NOISE_INTERVAL, Service, Voyage};
-pub use library::{Candidate, Limits, TYPICAL_ACCELERATION, TYPICAL_RATE, usual_schedules};
+pub use library::usual_schedules;
+pub use limits::{Limits, TYPICAL_ACCELERATION, TYPICAL_RATE};
 pub use next::{Confused, NextTest, next_test};
 pub use optimum::{
     ApproximateDesign, Criterion, Element, LinearFunction, Motion, Objective, OptimalRun,

@@ -1,31 +1,17 @@
 //! The library of rotation schedules.
 
+mod nineteen;
+
 use std::fmt::Write as _;
 
-use rins_frames::units::{DEG, DEG_PER_SECOND};
-use rins_frames::{Dcm, EulerAngles, Nav, Table};
+use rins_frames::units::DEG;
+use rins_frames::{Dcm, EulerAngles, Nav, SignedAxes, Table};
 use rins_motion::{Profile, Segment};
 
+use self::nineteen::nineteen_positions;
+use crate::candidate::Candidate;
+use crate::limits::Limits;
 use crate::planned::Planned;
-
-/// The rate of a table without stated limits \[rad/s\].
-pub const TYPICAL_RATE: f64 = 10.0 * DEG_PER_SECOND;
-
-/// The angular acceleration of a table without stated limits \[rad/s²\].
-pub const TYPICAL_ACCELERATION: f64 = 5.0 * DEG_PER_SECOND;
-
-/// The limits of a table, and the available time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// The largest rate \[rad/s\].
-    pub rate: f64,
-    /// The angular acceleration between two rates \[rad/s²\].
-    pub acceleration: f64,
-    /// The longest duration of all runs together \[s\].
-    pub duration: f64,
-    /// The largest number of directions of the axis.
-    pub directions: usize,
-}
 
 /// The rotation in one direction of the axis: rates relative to the largest.
 struct Shape {
@@ -49,26 +35,6 @@ const SHAPES: [Shape; 5] = [
 const DURATIONS: [f64; 11] =
     [60.0, 90.0, 120.0, 180.0, 240.0, 360.0, 480.0, 720.0, 1080.0, 1440.0, 2880.0];
 
-/// A schedule of the library.
-#[derive(Clone, Debug)]
-pub struct Candidate {
-    /// Its description.
-    pub words: String,
-    /// Its runs, one for each direction of the axis.
-    pub runs: Vec<Planned>,
-    /// The rates and durations in each run \[rad/s, s\].
-    pub segments: Vec<Segment>,
-    /// The total duration \[s\].
-    pub duration: f64,
-}
-
-impl Candidate {
-    /// Whether it has the same duration and the same number of directions of the axis.
-    pub(crate) fn is_as_long_as(&self, other: &Self) -> bool {
-        self.runs.len() == other.runs.len() && self.duration.total_cmp(&other.duration).is_eq()
-    }
-}
-
 /// All schedules within the limits, ordered by the number of directions of the axis, then by duration, then by simplicity.
 pub(crate) fn candidates(given: &Planned, limits: &Limits) -> Vec<Candidate> {
     let mut all = Vec::new();
@@ -87,8 +53,13 @@ pub(crate) fn candidates(given: &Planned, limits: &Limits) -> Vec<Candidate> {
 }
 
 /// The usual schedules in runs of one power-on, each as long as the limit: four static intervals, a reversal, and a reversal in two and in
-/// three orientations of the axis. Those that a ramp does not fit are left out.
-pub fn usual_schedules(given: &Planned, limits: &Limits) -> Vec<Candidate> {
+/// three orientations of the axis; if the IMU can be mounted with each of its axes along the spin axis, also 19 positions. Those that a ramp
+/// does not fit are left out.
+pub fn usual_schedules(
+    given: &Planned,
+    limits: &Limits,
+    mountings: &[SignedAxes],
+) -> Vec<Candidate> {
     let Limits { rate, acceleration, duration, .. } = *limits;
     let attitude = given.nav_from_table();
     let yaw = attitude.euler_angles().yaw + 120.0 * DEG;
@@ -125,6 +96,7 @@ pub fn usual_schedules(given: &Planned, limits: &Limits) -> Vec<Candidate> {
             let runs = attitudes.into_iter().map(run).collect();
             Some(Candidate { words: words.into(), runs, segments, duration })
         })
+        .chain(nineteen_positions(given, limits, mountings))
         .collect()
 }
 

@@ -7,7 +7,7 @@ use rins_terms::{Model, Need, SettingKind, Term, TermInstance};
 
 use crate::effect::Effect;
 use crate::error::DesignError;
-use crate::library::{Limits, TYPICAL_ACCELERATION, TYPICAL_RATE};
+use crate::limits::{Limits, TYPICAL_ACCELERATION, TYPICAL_RATE};
 use crate::planned::Planned;
 use crate::proposal::{Goal, propose};
 

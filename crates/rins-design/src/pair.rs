@@ -11,7 +11,7 @@ use crate::planned::Planned;
 /// The separation in sigmas from which two effects count as distinguishable.
 pub const ENOUGH: f64 = 6.0;
 
-/// The joint information of these planned runs of one IMU on the free parameters of `model`.
+/// The joint information of these planned runs of one IMU on the free parameters of `model`, which is along the sensors' own axes.
 ///
 /// # Errors
 /// [`DesignError`] if a run cannot be simulated, or the model cannot be estimated from the runs.

@@ -2,7 +2,7 @@
 
 use rins_calibration::Setup;
 use rins_estimation::{Noise, Reference, Rig, Run};
-use rins_frames::{Dcm, Nav, Table};
+use rins_frames::{Dcm, Nav, SignedAxes, Table};
 use rins_imu::ImuSpec;
 use rins_motion::{Profile, Segment, Station};
 use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
@@ -25,7 +25,9 @@ pub struct Planned {
     pub imu: ImuSpec,
     /// The angular acceleration of the table, if stated \[rad/s²\].
     pub acceleration: Option<f64>,
+    /// In the axes of the run, whose z is the spin axis.
     scenario: Scenario,
+    axes: SignedAxes,
     noise: f64,
     wobble: f64,
     turn_on: Option<usize>,
@@ -44,10 +46,11 @@ impl Planned {
         if let TableRecord::Angle(encoder) = &mut scenario.table {
             *encoder = Encoder::default();
         }
-        Self { name, imu, acceleration, scenario, noise, wobble, turn_on: None }
+        let axes = SignedAxes::IDENTITY;
+        Self { name, imu, acceleration, scenario, axes, noise, wobble, turn_on: None }
     }
 
-    /// A plan with the site, attitude, duration and rate of a measured run.
+    /// A plan with the site, attitude, duration and rate of a measured run, along the axes of that run.
     ///
     /// Where that was sampled more finely than the plan needs, several samples are one, with the noise of their mean.
     ///
@@ -72,6 +75,7 @@ impl Planned {
                 Profile::new(&[segment], None)?,
                 samples * interval,
             ),
+            axes: SignedAxes::IDENTITY,
             noise: noise.encoder / samples.sqrt(),
             wobble: noise.wobble / samples.sqrt(),
             turn_on: run.turn_on,
@@ -83,6 +87,14 @@ impl Planned {
     pub fn moved(&self, profile: Profile, nav_from_table: Dcm<Nav, Table>) -> Self {
         let scenario = Scenario { profile, nav_from_table, ..self.scenario.clone() };
         Self { scenario, ..self.clone() }
+    }
+
+    /// The same with the IMU mounted otherwise: axis `i` of the run, whose z is the spin axis, is `sign[i]` times the sensors' own axis
+    /// `source[i]`.
+    #[must_use]
+    pub fn with_axes(mut self, axes: SignedAxes) -> Self {
+        self.axes = axes;
+        self
     }
 
     /// The same as part of one power-on: all runs of the same `turn_on` have the same turn-on biases.
@@ -121,6 +133,11 @@ impl Planned {
     /// The attitude of the axis frame.
     pub fn nav_from_table(&self) -> Dcm<Nav, Table> {
         self.scenario.nav_from_table
+    }
+
+    /// The axes of the run relative to the sensors' own.
+    pub fn axes(&self) -> SignedAxes {
+        self.axes
     }
 
     /// The duration \[s\].
@@ -172,7 +189,8 @@ impl Planned {
             velocity: Setup::FIXED_TABLE_VELOCITY_NOISE,
         };
         let run = Run::new(rig, recording)
-            .map_err(|source| DesignError::Run { name: self.name.clone(), source })?;
+            .map_err(|source| DesignError::Run { name: self.name.clone(), source })?
+            .with_axes(self.axes);
         Ok(match self.turn_on {
             Some(turn_on) => run.since(turn_on),
             None => run,

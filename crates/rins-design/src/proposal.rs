@@ -6,9 +6,11 @@ use rayon::prelude::*;
 use rins_estimation::{Direction, Joint, distance};
 use rins_terms::Model;
 
+use crate::candidate::Candidate;
 use crate::effect::Effect;
 use crate::error::DesignError;
-use crate::library::{Candidate, Limits, candidates};
+use crate::library::candidates;
+use crate::limits::Limits;
 use crate::pair::{ENOUGH, Pair, information, with_priors};
 use crate::planned::Planned;
 

@@ -94,7 +94,7 @@ fn fitted(
     if runs.is_empty() {
         return Err(FitError::NoRun);
     }
-    let joined = Joined::of(model, imu, runs);
+    let joined = Joined::of(model, &runs[0].axes, imu, runs);
     joined.refuse_number()?;
     let strengths = knowledge.sheet();
     let (find_noise, open) = (knowledge.is_estimated(), knowledge.open());

@@ -1,5 +1,6 @@
 //! The places of the parameters of several runs in the joint parameter vector.
 
+use rins_frames::SignedAxes;
 use rins_imu::ImuSpec;
 use rins_terms::{FreeParameter, Model, Owner, TermInstance, catalogue};
 
@@ -11,10 +12,11 @@ use crate::run::Run;
 pub(crate) const MOST_PARAMETERS: usize = 256;
 
 /// The joint parameter vector of several runs of one IMU. Parameters of the sensors are shared; turn-on biases are shared
-/// by runs without a power cycle in between; all other parameters belong to single runs.
+/// by runs without a power cycle in between, other parameters of a run only if the IMU was not remounted either; the
+/// attitude of the axis belongs to single runs.
 ///
 /// Runs with different spin axes in the IMU share the parameters that are the same along the sensors' own axes. All ids are
-/// along the axes of the first run.
+/// along the axes of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// Each parameter as in the first run that has it, and the run that it belongs to: the first of those that share it, or
@@ -38,7 +40,7 @@ impl Layout {
         Self::joined(&vec![signed; runs.len()], runs)
     }
 
-    /// The layout of these runs. The parameters of each run are given with their ids along the first run's axes and with
+    /// The layout of these runs. The parameters of each run are given with their ids along the model's axes and with
     /// the factor that converts each value to these axes.
     fn joined(free: &[Vec<(FreeParameter, f64)>], runs: &[Run]) -> Self {
         let signs =
@@ -47,7 +49,11 @@ impl Layout {
             let all = only.iter().map(|(parameter, _)| (parameter.clone(), None)).collect();
             return Self { all, places: vec![(0..only.len()).collect()], signs };
         }
-        let never_off = runs.iter().all(|run| run.shares_turn_on(&runs[0]));
+        let shares = |owner: Owner, run: &Run, other: &Run| match owner {
+            Owner::PowerOn => run.shares_power(other),
+            Owner::Run => run.shares_turn_on(other),
+            Owner::Sensor | Owner::Placement => false,
+        };
         let mut all: Vec<(FreeParameter, Option<usize>)> = Vec::new();
         let mut places: Vec<Vec<usize>> = free.iter().map(|of_run| vec![0; of_run.len()]).collect();
         let of_sensors = |parameter: &FreeParameter| parameter.owner == Owner::Sensor;
@@ -63,18 +69,21 @@ impl Layout {
             }
         }
         for (number, run) in runs.iter().enumerate() {
-            let before = runs[..number].iter().position(|other| other.shares_turn_on(run));
             for (index, (parameter, _)) in free[number].iter().enumerate() {
-                places[number][index] = match (parameter.owner, before) {
-                    (Owner::Sensor, _) => continue,
-                    // Such runs have the same axes and the same parameters.
-                    (Owner::Run, Some(before)) => places[before][index],
-                    (owner, _) => {
-                        let shared = owner == Owner::Run && never_off;
-                        all.push((parameter.clone(), (!shared).then_some(number)));
-                        all.len() - 1
-                    }
-                };
+                if of_sensors(parameter) {
+                    continue;
+                }
+                let owner = parameter.owner;
+                let known = (0..number).find_map(|before| {
+                    let same = |(other, _): &(FreeParameter, f64)| other.id == parameter.id;
+                    let at = free[before].iter().position(same)?;
+                    shares(owner, run, &runs[before]).then_some(places[before][at])
+                });
+                places[number][index] = known.unwrap_or_else(|| {
+                    let by_all = runs.iter().all(|other| shares(owner, other, &runs[0]));
+                    all.push((parameter.clone(), (!by_all).then_some(number)));
+                    all.len() - 1
+                });
             }
         }
         Self { all, places, signs }
@@ -92,20 +101,11 @@ pub(crate) struct Joined {
 }
 
 impl Joined {
-    /// Joins these runs of one IMU; the model is along the axes of the first.
-    pub(crate) fn of(model: &Model, imu: &ImuSpec, runs: &[Run]) -> Self {
-        let models: Vec<Model> = runs
-            .iter()
-            .map(|run| model.carried(&run.axes.after(&runs[0].axes.inverse())))
-            .collect();
-        let signed = |(run, model): (&Run, &Model)| -> Vec<(FreeParameter, f64)> {
-            let axes = run.axes.after(&runs[0].axes.inverse());
-            let along_first = |free: FreeParameter| {
-                let (_, sign) = model.terms[free.term].own(free.parameter, &axes);
-                (FreeParameter { id: model.own_id(free.term, free.parameter, &axes), ..free }, sign)
-            };
-            model.free(imu).into_iter().map(along_first).collect()
-        };
+    /// Joins these runs of one IMU; the model is along these axes, relative to the sensors' own.
+    pub(crate) fn of(model: &Model, along: &SignedAxes, imu: &ImuSpec, runs: &[Run]) -> Self {
+        let axes = |run: &Run| run.axes.after(&along.inverse());
+        let models: Vec<Model> = runs.iter().map(|run| model.carried(&axes(run))).collect();
+        let signed = |(run, model): (&Run, &Model)| model.free_along(&axes(run), imu);
         let free: Vec<Vec<(FreeParameter, f64)>> = runs.iter().zip(&models).map(signed).collect();
         let layout = Layout::joined(&free, runs);
         let place = |(parameter, _): &(FreeParameter, f64)| (parameter.term, parameter.parameter);

@@ -221,8 +221,13 @@ impl Run {
         self
     }
 
+    /// Whether there was no power cycle between this run and another.
+    pub(crate) fn shares_power(&self, other: &Self) -> bool {
+        self.turn_on.is_some() && self.turn_on == other.turn_on
+    }
+
     /// Whether there was neither a power cycle nor a change of mounting of the IMU between this run and another.
     pub(crate) fn shares_turn_on(&self, other: &Self) -> bool {
-        self.turn_on.is_some() && self.turn_on == other.turn_on && self.axes == other.axes
+        self.shares_power(other) && self.axes == other.axes
     }
 }

@@ -70,7 +70,6 @@ pub use rig::{
     Stamp, Started, StatedRotation, Table, TableSpec, TemperatureColumn, TextForm, TimeColumn,
     TimeUnit, TriadColumns,
 };
-pub use run::truth_json;
 pub use scenario::ScenarioFile;
 pub use shown::{one_line, shown};
 pub use suggestion::nearest;

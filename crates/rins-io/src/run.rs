@@ -5,9 +5,9 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
+use rins_frames::SignedAxes;
 use rins_frames::units::DEG;
 use rins_motion::Recording;
-use rins_simulation::Scenario;
 use rins_terms::Model;
 use serde_json::{Value, json};
 
@@ -17,9 +17,34 @@ use crate::parameter::{Parameter, parameters};
 use crate::scenario::{ScenarioFile, true_angles};
 use crate::term;
 use crate::write::rig_text::{column_keys, figures, inline, push_table};
-use crate::write::write_recording;
+use crate::write::{along_own_axes, write_recording};
 
 impl ScenarioFile {
+    /// The truth of a simulated run as JSON: the axis frame's true attitude, the IMU's true errors and
+    /// the effects, with the ids and units of results, along the sensors' own axes.
+    pub fn truth_json(&self) -> String {
+        let scenario = &self.scenario;
+        let axes = SignedAxes::from(self.spin);
+        let angles = true_angles(scenario);
+        let error = scenario.imu_error.along(&axes.inverse().matrix());
+        let parameters: Vec<Value> = parameters(&error).into_iter().map(parameter_json).collect();
+        let effects: Vec<Value> = (0..scenario.effects.terms.len())
+            .map(|place| effect_json(&scenario.effects, place, &axes))
+            .collect();
+        let truth = json!({
+            "schema": 1,
+            "seed": scenario.seed.seed,
+            "attitude_deg": {
+                "roll": angles.roll / DEG,
+                "pitch": angles.pitch / DEG,
+                "yaw": angles.yaw / DEG,
+            },
+            "parameters": parameters,
+            "effects": effects,
+        });
+        format!("{truth:#}\n")
+    }
+
     /// The rig file of a run that was simulated from this scenario: all sections of the scenario
     /// except `[truth]` and `[grid]`, with quantities as written there, and a `[log]` for the output of
     /// [`write_recording`].
@@ -57,52 +82,31 @@ impl ScenarioFile {
             let mut out = BufWriter::new(file);
             fill(&mut out).and_then(|()| out.flush()).map_err(IoError::file("write", &path))
         };
-        write(&self.log_name, &|out| write_recording(recording, out))?;
+        let own = along_own_axes(recording, &self.spin);
+        write(&self.log_name, &|out| write_recording(&own, out))?;
         write("rig.toml", &|out| out.write_all(self.rig_toml(recording).as_bytes()))?;
-        write("truth.json", &|out| out.write_all(truth_json(&self.scenario).as_bytes()))
+        write("truth.json", &|out| out.write_all(self.truth_json().as_bytes()))
     }
-}
-
-/// The truth of a simulated run as JSON: the axis frame's true attitude, the IMU's true errors and
-/// the effects, with the ids and units of results.
-pub fn truth_json(scenario: &Scenario) -> String {
-    let angles = true_angles(scenario);
-    let parameters: Vec<Value> =
-        parameters(&scenario.imu_error).into_iter().map(parameter_json).collect();
-    let effects: Vec<Value> = (0..scenario.effects.terms.len())
-        .map(|place| effect_json(&scenario.effects, place))
-        .collect();
-    let truth = json!({
-        "schema": 1,
-        "seed": scenario.seed.seed,
-        "attitude_deg": {
-            "roll": angles.roll / DEG,
-            "pitch": angles.pitch / DEG,
-            "yaw": angles.yaw / DEG,
-        },
-        "parameters": parameters,
-        "effects": effects,
-    });
-    format!("{truth:#}\n")
 }
 
 fn parameter_json(Parameter { id, value, unit }: Parameter) -> Value {
     json!({ "id": id, "value": value, "unit": unit })
 }
 
-fn effect_json(effects: &Model, place: usize) -> Value {
+fn effect_json(effects: &Model, place: usize, axes: &SignedAxes) -> Value {
     let chosen = &effects.terms[place];
+    let settings = chosen.term.own_settings(&chosen.settings, axes);
     let settings: Vec<Value> = chosen
         .term
         .settings
         .iter()
-        .zip(&chosen.settings)
+        .zip(&settings)
         .map(|(setting, value)| {
             let (value, unit) = (value / setting.unit.factor, setting.unit.symbol);
             json!({ "name": setting.name, "value": value, "unit": unit })
         })
         .collect();
     let parameters: Vec<Value> =
-        term::parameters(effects, place).into_iter().map(parameter_json).collect();
+        term::parameters(effects, place, axes).into_iter().map(parameter_json).collect();
     json!({ "id": chosen.term.id, "settings": settings, "parameters": parameters })
 }

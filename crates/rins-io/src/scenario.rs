@@ -55,8 +55,11 @@ use crate::term::{self, Use};
 pub struct ScenarioFile {
     /// The scenario file.
     pub path: PathBuf,
-    /// The scenario to be simulated.
+    /// The scenario to be simulated, along the axes of the run, whose z is the spin axis.
     pub scenario: Scenario,
+    /// The axes of the run, selected from the sensors' own: z unless `[axis] spin` states another one. `[truth]` and the simulated log are
+    /// along the sensors' own axes.
+    pub spin: Axes,
     /// The file name of the log in the folder of a simulated run.
     pub log_name: String,
     /// The scenario's text, from which the rig file of a run is written.
@@ -84,18 +87,22 @@ impl ScenarioFile {
         Self::from_document(Document::parse(text, path)?)
     }
 
+    /// Refuses a scenario about another axis of the IMU, for this reason.
+    pub(crate) fn require_spin_about_z(&self, reason: &str) -> Result<(), IoError> {
+        if self.spin == Axes::IDENTITY {
+            return Ok(());
+        }
+        let root = Section::root(&self.document, &sections())?;
+        let axis = root.section("axis", &["spin"])?;
+        Err(axis.as_ref().unwrap_or(&root).conflict("spin", reason))
+    }
+
     pub(crate) fn from_document(document: Document) -> Result<Self, IoError> {
-        let known: Vec<&str> = rig::SECTIONS.into_iter().chain(["truth", "grid"]).collect();
-        let root = Section::root(&document, &known)?;
+        let root = Section::root(&document, &sections())?;
         let Some(station) = rig::station(&root)? else {
             return Err(root.missing("[site]", "latitude, longitude and height"));
         };
         let rig = Rig::without_log(&document, &root)?;
-        if rig.spin != Axes::IDENTITY {
-            let axis = root.section("axis", &["spin"])?;
-            let reason = "a scenario spins about z; leave this out";
-            return Err(axis.as_ref().unwrap_or(&root).conflict("spin", reason));
-        }
         let Some(log) = root.section("log", &rig::LOG_KEYS)? else {
             return Err(root.missing("[log]", such_as(&kinds::SAMPLE_RATE)));
         };
@@ -104,7 +111,8 @@ impl ScenarioFile {
         let Some(truth) = root.section("truth", &TRUTH)? else {
             return Err(root.missing("[truth]", "at least a seed"));
         };
-        let effects = effects(&truth)?;
+        let axes = SignedAxes::from(rig.spin);
+        let effects = effects(&truth, &axes)?;
         let noise = Noise::read(&truth)?;
         let Some(profile) = rig.table.as_ref().and_then(|table| table.profile.clone()) else {
             let expected = r#"a list such as [{ rate = "10 deg/s", duration = "60 s" }]"#;
@@ -121,15 +129,20 @@ impl ScenarioFile {
             nav_from_table: attitude.dcm(),
             profile,
             interval: 1.0 / rate,
-            imu_error: ImuError { gyro: gyro.error, accel: accel.error },
+            imu_error: ImuError { gyro: gyro.error, accel: accel.error }.along(&axes.matrix()),
             noise: noise.of_imu(&rig, &gyro, &accel)?,
             table: table_record(&log, &noise)?,
             effects,
             temperature: temperature::read(&truth)?,
             seed: Seed::new(seed(&truth)?),
         };
-        Ok(Self { path: document.path.clone(), scenario, log_name, document })
+        Ok(Self { path: document.path.clone(), scenario, spin: rig.spin, log_name, document })
     }
+}
+
+/// The sections of a scenario file.
+fn sections() -> Vec<&'static str> {
+    rig::SECTIONS.into_iter().chain(["truth", "grid"]).collect()
 }
 
 fn log_name(log: &Section<'_>) -> Result<String, IoError> {
@@ -181,10 +194,10 @@ fn table_record(log: &Section<'_>, noise: &Noise) -> Result<TableRecord, IoError
 }
 
 /// The effects other than bias, scale error, misalignment and noise.
-fn effects(truth: &Section<'_>) -> Result<Model, IoError> {
+fn effects(truth: &Section<'_>, axes: &SignedAxes) -> Result<Model, IoError> {
     let mut effects = Model::default();
     for table in term::tables(truth, "effects")? {
-        let effect = term::read(&table, Use::Effect, &SignedAxes::IDENTITY)?;
+        let effect = term::read(&table, Use::Effect, axes)?;
         term::refuse_triads(&table, &effect, |sensor| format!("[truth.{sensor}]"))?;
         effects.terms.push(effect);
     }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use rins::io::Axes;
 use rins::io::quantity::kinds;
 use rins::{DesignGoal, DesignOptions};
 
@@ -22,6 +23,7 @@ pub(crate) struct Design {
     max_acceleration: Option<String>,
     directions: usize,
     tilts: Option<Vec<String>>,
+    mountings: Vec<String>,
     service: Option<PathBuf>,
 }
 
@@ -36,6 +38,9 @@ impl Design {
         };
         let tilt = |text: String| quantity("tilts", &kinds::TURN, &text);
         let tilts = self.tilts.map(|tilts| tilts.into_iter().map(tilt).collect()).transpose()?;
+        let mounting = |name: String| {
+            Axes::spin(&name).ok_or_else(|| argument("mountings", "expected x, y, z, -x, -y or -z"))
+        };
         Ok(DesignOptions {
             model: self.model,
             duration: limit("duration", &kinds::DURATION, self.duration)?,
@@ -47,6 +52,7 @@ impl Design {
             )?,
             directions: self.directions,
             tilts,
+            mountings: self.mountings.into_iter().map(mounting).collect::<PyResult<_>>()?,
             service: self.service,
             ..DesignOptions::new(goal)
         })

@@ -6,8 +6,9 @@
 //! `source[i]`, and they are a proper rotation.
 
 use rins_frames::SignedAxes;
+use rins_imu::ImuSpec;
 
-use crate::model::{Model, TermInstance};
+use crate::model::{FreeParameter, Model, TermInstance};
 use crate::setting::SettingKind;
 use crate::term::{Parity, Term};
 
@@ -174,6 +175,21 @@ impl Model {
     /// If there is no such term or parameter.
     pub fn own_id(&self, term: usize, parameter: usize, axes: &SignedAxes) -> String {
         format!("{}.{}", self.term_id(term), self.terms[term].term.own_name(parameter, axes))
+    }
+
+    /// The free parameters of this model of a run with these axes, each with its own id, and what its value in the run is multiplied by
+    /// to be its own. Those of a term are in the order of their own names.
+    pub fn free_along(&self, axes: &SignedAxes, imu: &ImuSpec) -> Vec<(FreeParameter, f64)> {
+        let own = |free: FreeParameter| {
+            let (_, sign) = self.terms[free.term].own(free.parameter, axes);
+            (FreeParameter { id: self.own_id(free.term, free.parameter, axes), ..free }, sign)
+        };
+        let mut free = self.free(imu);
+        free.sort_by_cached_key(|free| {
+            let order = self.terms[free.term].term.own_order(axes);
+            (free.term, order.iter().position(|&place| place == free.parameter))
+        });
+        free.into_iter().map(own).collect()
     }
 
     /// The parameter with this own id in a run with these axes: its term's place, and its own.

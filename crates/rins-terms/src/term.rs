@@ -157,7 +157,9 @@ impl Prevalence {
 pub enum Owner {
     /// The IMU: the same in all its runs.
     Sensor,
-    /// One run, from switching on to switching off: turn-on biases, what the table and the base did.
+    /// The IMU from switching on to switching off, whatever it is mounted on: turn-on biases.
+    PowerOn,
+    /// One run, or several without a power cycle and without a change of the mounting: what the table and the base do.
     Run,
     /// One way of standing: the attitude of the axis, another one after the IMU was turned over, switched off or not.
     Placement,

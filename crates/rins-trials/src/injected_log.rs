@@ -28,6 +28,8 @@ pub(crate) struct MeasuredLog {
     pub(crate) times: Vec<f64>,
     /// The three gyros \[rad/s\], then the three accelerometers \[m/s²\].
     pub(crate) channels: [Vec<f64>; 6],
+    /// The least significant bit of the increments of each channel, if it is quantized \[rad or m/s\].
+    bits: [Option<f64>; 6],
     /// The temperature, if it was measured.
     temperature: Option<Vec<f64>>,
     /// The sensor's axis that is the spin axis, if the log rotates.
@@ -63,6 +65,9 @@ impl MeasuredLog {
         let channels = std::array::from_fn(|channel| {
             rows.iter().enumerate().map(|(row, all)| all[channel + 1] / interval(row)).collect()
         });
+        let bits = std::array::from_fn(|channel| {
+            bit(&rows.iter().map(|row| row[channel + 1]).collect::<Vec<f64>>())
+        });
         let rig_text = fs::read_to_string(csv.with_extension("toml"))?;
         let spin = ["x", "y", "z"]
             .iter()
@@ -72,6 +77,7 @@ impl MeasuredLog {
             temperature: (columns > 7).then(|| rows.iter().map(|row| row[7]).collect()),
             times,
             channels,
+            bits,
             spin,
             rig: rig_text,
         })
@@ -88,6 +94,7 @@ impl MeasuredLog {
             name: self.name.clone(),
             times: of(&self.times),
             channels: self.channels.each_ref().map(of),
+            bits: self.bits,
             temperature: self.temperature.as_ref().map(of),
             spin: self.spin,
             rig: self.rig.clone(),
@@ -110,15 +117,23 @@ impl MeasuredLog {
         }
     }
 
-    /// Writes `log.csv` and `rig.toml` into a folder.
+    /// Writes `log.csv` and `rig.toml` into a folder. What was quantized is quantized again: the errors were there before the converter.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), Trouble> {
         let mut text = String::from("time,gyro_x,gyro_y,gyro_z,accel_x,accel_y,accel_z");
         text.push_str(if self.temperature.is_some() { ",temperature\n" } else { "\n" });
+        let mut left = [0.0; 6];
         for row in 0..self.times.len() {
             let interval = self.times[row.max(1)] - self.times[row.max(1) - 1];
             let _ = write!(text, "{}", self.times[row]);
-            for channel in &self.channels {
-                let _ = write!(text, ",{:e}", channel[row] * interval);
+            for (channel, readings) in self.channels.iter().enumerate() {
+                let mut increment = readings[row] * interval;
+                if let Some(bit) = self.bits[channel] {
+                    // The converter keeps what it does not put out.
+                    let whole = increment + left[channel];
+                    increment = (whole / bit).round() * bit;
+                    left[channel] = whole - increment;
+                }
+                let _ = write!(text, ",{increment:e}");
             }
             if let Some(temperature) = &self.temperature {
                 let _ = write!(text, ",{}", temperature[row]);
@@ -178,6 +193,21 @@ pub(crate) fn spectral_density(signal: &[f64], interval: f64) -> impl Fn(f64) ->
     }
 }
 
+/// The least significant bit of increments, if they are multiples of one that is large compared with what rounding their decimals does.
+fn bit(increments: &[f64]) -> Option<f64> {
+    let mut sorted = increments.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let most = sorted[0].abs().max(sorted[sorted.len() - 1].abs());
+    let differences = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+    let bit = differences.filter(|step| *step > 1e-9 * most).min_by(f64::total_cmp)?;
+    let is_multiple = |step: f64| {
+        let parts = step / bit;
+        (parts - parts.round()).abs() < 0.01
+    };
+    let coarse = sorted.windows(2).all(|pair| is_multiple(pair[1] - pair[0]));
+    (coarse && is_multiple(sorted[0])).then_some(bit)
+}
+
 #[cfg(test)]
 mod tests {
     use rand_distr::{Distribution, StandardNormal};
@@ -207,5 +237,14 @@ mod tests {
         let power = spectrum(&signal);
         assert!((power[7] / 250_000.0 - 1.0).abs() < 1e-9, "{}", power[7]);
         assert!(power[9] < 1e-9 * power[7], "{}", power[9]);
+    }
+
+    #[test]
+    fn bit_is_that_of_whole_counts_only() {
+        let counts = [-3.0, 0.0, 1.0, 2.0, 2.0, 7.0, 1.0];
+        let found = bit(&counts.map(|count| count * 1.223e-3)).unwrap();
+        assert!((found - 1.223e-3).abs() < 1e-12, "{found}");
+        assert_eq!(bit(&counts.map(|count| count * 1.223e-3 + 0.2e-3)), None);
+        assert_eq!(bit(&[0.1, 0.25, 0.37, 0.9, 1.234]), None);
     }
 }

@@ -21,7 +21,8 @@ whose spectral density Welch's method estimates; biases, scale errors and misali
 cannot be detected: what is named with it and not without it is a false alarm.
 
 - *Found*: the diagnosis names an effect that may be the error (itself, or its credible set contains it), at the time of an event within
-  a tenth of the log, which it does not name without it; or its amplitude changes by more than half of the error.
+  a tenth of the log, which it does not name without it; or its amplitude changes by more than half of the error
+  and by more than 2 of its sigmas.
 - *Covered*: the error is named alone, and the change of its amplitude differs from the truth by less than 3 sigma.
 - *False*: an effect is named that is not the error and is not named without it.
 

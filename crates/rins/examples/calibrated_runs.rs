@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use rins::estimation::{
     Fit, Joint, NoiseKnowledge, NoiseParameters, Reference, Rig, Run, fit, joint,
 };
-use rins::frames::Dcm;
+use rins::frames::{Dcm, SignedAxes};
 use rins::imu::{ImuSpec, NoiseModel, Seed};
 use rins::io::ScenarioFile;
 use rins::motion::{CarriedTable, Carrier, Segment};
@@ -38,6 +38,8 @@ const USAGE: &str = "usage: calibrated_runs RUNS SCENARIO...";
 /// The scenarios of one schedule.
 struct Schedule {
     scenarios: Vec<Scenario>,
+    /// The axes of each run relative to the sensors' own.
+    axes: Vec<SignedAxes>,
     imu: ImuSpec,
     encoder: f64,
     wobble: f64,
@@ -60,14 +62,15 @@ impl Schedule {
         let wobble = rig.table.as_ref().and_then(|table| table.wobble).unwrap_or(encoder);
         let model = Model::full();
         let free = model.free(&imu);
+        let axes = files.iter().map(|file| SignedAxes::from(file.spin)).collect();
         let scenarios = files.into_iter().map(|file| file.scenario).collect();
-        Ok(Self { scenarios, imu, encoder, wobble, model, free })
+        Ok(Self { scenarios, axes, imu, encoder, wobble, model, free })
     }
 
     /// The runs, with the attitudes of their axes known but for an error.
     fn runs(&self, scenarios: &[Scenario]) -> anyhow::Result<Vec<Run>> {
-        let both = scenarios.iter().zip(&self.scenarios);
-        both.map(|(scenario, nominal)| {
+        let all = scenarios.iter().zip(&self.scenarios).zip(&self.axes);
+        all.map(|((scenario, nominal), &axes)| {
             let rig = Rig {
                 station: nominal.station,
                 nav_from_table: nominal.nav_from_table,
@@ -75,7 +78,7 @@ impl Schedule {
                 wobble: self.wobble,
                 velocity: 1e-6,
             };
-            Ok(Run::new(rig, simulate(scenario)?.recording)?.since(0))
+            Ok(Run::new(rig, simulate(scenario)?.recording)?.with_axes(axes).since(0))
         })
         .collect()
     }
@@ -104,12 +107,14 @@ impl Schedule {
             let own: Vec<f64> = self.free.iter().filter(|f| !is_of_imu(f)).map(sigma).collect();
             let off = nalgebra::Vector3::from_column_slice(&own);
             scenario.nav_from_table = scenario.nav_from_table * Dcm::from_rotation_vector(&off);
-            scenario.effects = effects.clone();
+            scenario.effects = effects.carried(&self.axes[place]);
             scenario.seed = Seed::new(1000 * seed + place as u64);
         }
         let runs = self.runs(&scenarios)?;
         let knowledge = NoiseKnowledge::Given(NoiseParameters::of(&self.imu));
+        // The model is along the axes of the first run: no term of it has a setting or a value, so that it is the same along all axes.
         let found: Fit = fit(&runs, &self.model, &self.imu, knowledge, |_| {})?;
+        let found = found.along(SignedAxes::IDENTITY);
         let value = |free: &&FreeParameter| {
             found.parameters.iter().find(|one| one.parameter.id == free.id).map(|one| one.value)
         };

@@ -102,6 +102,69 @@ fn schedule_can_be_run_and_shows_what_was_predicted() {
     assert_eq!(simulated.code, Some(0), "{}", simulated.err);
 }
 
+/// Other axes of the IMU along the spin axis: the schedule gains, its files are of one power-on about several axes, and what is simulated
+/// and calibrated from them is what was predicted.
+#[test]
+fn mountings_are_part_of_the_schedule() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = schedules().join("ii-reversal.toml");
+    let design = |more: &str| {
+        let arguments = format!(
+            "design {} --for D:gyro.scale,gyro.misalignment --tilts 0deg,90deg {more}",
+            scenario.display()
+        );
+        result_in(folder.path(), &arguments)
+    };
+    let one = design("");
+    let told = design("--mountings x,y,z -o out");
+    let value = |told: &Value| number(told, "/value");
+    assert!(value(&told) < 0.2 * value(&one), "{} {}", value(&told), value(&one));
+    assert!((0.0..0.01).contains(&number(&told, "/gap")));
+    let spins: Vec<&str> =
+        list(&told, "/runs").iter().map(|run| run["spin"].as_str().unwrap()).collect();
+    let mut sorted = spins.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, ["x", "y", "z"]);
+    let compared = list(&told, "/schedules");
+    let nineteen = compared.iter().find(|one| one["name"] == "19 positions").unwrap();
+    assert!((number(nineteen, "/duration_s") - 360.0).abs() < 1e-6);
+    assert!(number(nineteen, "/value") > value(&told));
+    assert!(!list(&one, "/schedules").iter().any(|one| one["name"] == "19 positions"));
+    // The shipped scenarios are the same schedule.
+    let shipped = rins_tests::workspace().join("scenarios/nineteen-positions");
+    let shipped = result_in(&shipped, "observe 1.toml 2.toml 3.toml 4.toml");
+    for id in ["gyro.scale.x", "gyro.misalignment.zy", "accel.misalignment.yz", "accel.bias.z"] {
+        let (told, own) = (sigma(nineteen, id), sigma(&list(&shipped, "/schedules")[0], id));
+        assert!((told / own - 1.0).abs() < 0.01, "{id}: {told} {own}");
+    }
+    let files: Vec<&str> =
+        list(&told, "/files").iter().map(|file| file.as_str().unwrap()).collect();
+    let observed = format!("observe out/{}", files.join(" out/"));
+    let observed = result_in(folder.path(), &observed);
+    let sigma_of = |parameters: &[Value], id: &str| {
+        let own = parameters.iter().find(|one| one["id"] == id);
+        number(own.unwrap_or_else(|| panic!("no {id}")), "/sigma")
+    };
+    let optimal = list(compared.last().unwrap(), "/parameters");
+    let observed = list(&list(&observed, "/schedules")[0], "/parameters");
+    for id in ["gyro.scale.x", "gyro.scale.y", "gyro.misalignment.xy", "accel.bias.x"] {
+        let (seen, wanted) = (sigma_of(observed, id), sigma_of(optimal, id));
+        assert!((seen / wanted - 1.0).abs() < 0.01, "{id}: {seen} {wanted}");
+    }
+    for (place, file) in files.iter().enumerate() {
+        rins_in(folder.path(), &format!("simulate out/{file} -o run{place}"));
+    }
+    let runs: Vec<String> = (0..files.len()).map(|place| format!("run{place}/rig.toml")).collect();
+    let found = result_in(
+        folder.path(),
+        &format!("calibrate {} --model full --noise given", runs.join(" ")),
+    );
+    for id in ["gyro.scale.x", "gyro.scale.y", "gyro.scale.z", "gyro.misalignment.xy"] {
+        let (seen, wanted) = (sigma_of(list(&found, "/parameters"), id), sigma_of(optimal, id));
+        assert!((seen / wanted - 1.0).abs() < 0.1, "{id}: {seen} {wanted}");
+    }
+}
+
 #[test]
 fn impossible_requests_are_refused_with_a_hint() {
     let scenario = "design ii-reversal.toml";

@@ -24,6 +24,7 @@ const FILES: &str = "rins-io";
 
 /// Words that are a setting's name and have another meaning in a crate, with that meaning.
 const OTHER_WORDS: &[(&str, &str, &str)] = &[
+    ("rins", "axis", "a section of a scenario that is proposed"),
     ("rins", "duration", "a key of a scenario that is proposed"),
     ("rins", "time", "a word of the report: what a change goes along with"),
     ("rins-trials", "time", "a command of the program"),

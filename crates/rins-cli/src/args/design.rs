@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use rins::DesignGoal;
+use rins_io::Axes;
 use rins_io::quantity::kinds;
 
 use super::observe::{duration, table_acceleration, table_rate};
@@ -35,6 +36,10 @@ pub(crate) struct Design {
     /// Tilts of the spin axis that the table allows, such as "0 deg,45 deg,90 deg"; by default any from 0 to 90 deg
     #[arg(long, value_name = "TILTS", value_delimiter = ',', value_parser = tilt)]
     pub(crate) tilts: Option<Vec<f64>>,
+    /// Axes of the IMU that can be mounted along the spin axis, such as x,y,z or x,-x; by default that of the scenario. With x, y and z
+    /// the schedule of 19 positions is compared as well
+    #[arg(long, value_name = "AXES", value_delimiter = ',', value_parser = mounting, allow_hyphen_values = true)]
+    pub(crate) mountings: Vec<Axes>,
     /// Mission file of the system in service, of which the first scheme is used, for position@...; by default the scenario's site and
     /// axis, rotating back and forth
     #[arg(long, value_name = "MISSION")]
@@ -49,6 +54,10 @@ fn directions(text: &str) -> Result<usize, String> {
         Ok(n @ 1..=6) => Ok(n),
         _ => Err("expected 1 to 6".into()),
     }
+}
+
+fn mounting(text: &str) -> Result<Axes, String> {
+    Axes::spin(text.trim()).ok_or_else(|| "expected x, y, z, -x, -y or -z".into())
 }
 
 fn tilt(text: &str) -> Result<f64, String> {

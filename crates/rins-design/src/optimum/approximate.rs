@@ -78,7 +78,16 @@ impl ApproximateDesign {
         close: f64,
     ) -> Option<Self> {
         let count = elements.len();
-        let mut weights = vec![1.0 / count as f64; count];
+        Self::from_start(prior, elements, criterion, (vec![1.0 / count as f64; count], close))
+    }
+
+    /// The same from a start: the shares of a similar design.
+    pub(super) fn from_start(
+        prior: &DVector<f64>,
+        elements: &[Element],
+        criterion: &Criterion,
+        (mut weights, close): (Vec<f64>, f64),
+    ) -> Option<Self> {
         let mut steps = 0;
         loop {
             let state = State::of(prior, elements, &weights);
@@ -109,6 +118,22 @@ impl ApproximateDesign {
                 weights[place] = share;
             }
         }
+    }
+}
+
+impl ApproximateDesign {
+    /// The same candidates with other shares; the gap is to the same bound.
+    pub(super) fn with_weights(
+        &self,
+        weights: Vec<f64>,
+        prior: &DVector<f64>,
+        elements: &[Element],
+        criterion: &Criterion,
+    ) -> Option<Self> {
+        let (marginal, _) = State::of(prior, elements, &weights).marginal()?;
+        let value = criterion.value(&marginal)?;
+        let gap = criterion.gap(value, criterion.bound(self.value, self.gap));
+        Some(Self { weights, value, gap, steps: self.steps })
     }
 }
 

@@ -10,14 +10,16 @@ mod approximate;
 mod criterion;
 mod element;
 mod motion;
+mod mounting;
 mod objective;
 mod pool;
 mod rounding;
 mod selection;
 
+use rayon::prelude::*;
 use rins_estimation::Joint;
 use rins_frames::units::DEG;
-use rins_frames::{Dcm, EulerAngles, Nav, Table};
+use rins_frames::{Dcm, EulerAngles, Nav, SignedAxes, Table};
 use rins_motion::{Profile, Segment};
 use rins_terms::Model;
 
@@ -26,11 +28,11 @@ pub use self::criterion::Criterion;
 pub use self::element::Element;
 pub use self::motion::Motion;
 pub use self::objective::{LinearFunction, Objective};
-use self::pool::{Pool, PoolDesign};
+use self::pool::{Orientation, Pool, PoolDesign};
 use self::rounding::Short;
 use self::selection::Selection;
 use crate::error::DesignError;
-use crate::library::Limits;
+use crate::limits::Limits;
 use crate::pair::information;
 use crate::planned::Planned;
 
@@ -59,6 +61,9 @@ pub struct Optimization<'a> {
     pub limits: &'a Limits,
     /// The possible tilts of the axis \[rad\]; `None` if any from 0 to 90 deg is possible.
     pub tilts: Option<&'a [f64]>,
+    /// The possible mountings of the IMU: the axes of a run, whose z is the spin axis, relative to the sensors' own. That of the first
+    /// given run if there are none.
+    pub mountings: &'a [SignedAxes],
 }
 
 /// A run of an optimal schedule.
@@ -97,17 +102,23 @@ impl Optimization<'_> {
     /// and all errors of [`information`].
     pub fn run(&self, mut at: impl FnMut(usize)) -> Result<OptimalSchedule, DesignError> {
         let Self { given, model, objective, limits, .. } = *self;
-        let mut pool = Pool::new(&given[0], model, limits);
-        pool.add(self.orientations())?;
+        let given_axes = [given[0].axes()];
+        let mountings = if self.mountings.is_empty() { &given_axes } else { self.mountings };
+        let mut pool = Pool::new(&given[0], model, limits, mountings);
+        pool.add(self.orientations(mountings.len()))?;
         at(pool.candidates());
         let mut selection = Selection::new(objective, limits, &pool)?;
-        selection.improve(&pool)?;
         if self.tilts.is_none() && limits.directions > 1 {
             for (tilt, azimuth) in FINER {
                 let chosen = selection.design.orientations.iter();
                 let around: Vec<_> = chosen
-                    .flat_map(|&place| around(pool.orientations[place], tilt * DEG, azimuth * DEG))
-                    .filter(|attitude| self.is_readable(*attitude))
+                    .flat_map(|&place| {
+                        let Orientation { attitude, mounting } = pool.orientations[place];
+                        around(attitude, tilt * DEG, azimuth * DEG)
+                            .into_iter()
+                            .map(move |attitude| Orientation { attitude, mounting })
+                    })
+                    .filter(|orientation| self.is_readable(orientation.attitude))
                     .collect();
                 pool.add(around)?;
                 at(pool.candidates());
@@ -117,7 +128,7 @@ impl Optimization<'_> {
         let mut best: Option<OptimalSchedule> = None;
         for design in selection.alternatives(&pool)? {
             for short in [Short::LeftOut, Short::Extended] {
-                let Some(schedule) = self.rounded(&pool, &design, short)? else { continue };
+                let Some(schedule) = self.simplified(&pool, &design, short)? else { continue };
                 let better = |best: &OptimalSchedule| {
                     selection.criterion.efficiency(best.value, schedule.value) < 1.0 - NEARLY
                 };
@@ -129,8 +140,17 @@ impl Optimization<'_> {
         best.ok_or(DesignError::NothingFits)
     }
 
-    /// The orientations from which the search begins.
-    fn orientations(&self) -> Vec<Dcm<Nav, Table>> {
+    /// The orientations from which the search begins, in this number of mountings.
+    fn orientations(&self, mountings: usize) -> Vec<Orientation> {
+        let attitudes = self.attitudes();
+        let of = |mounting: usize| {
+            attitudes.iter().map(move |&attitude| Orientation { attitude, mounting })
+        };
+        (0..mountings).flat_map(of).collect()
+    }
+
+    /// The attitudes of the axis from which the search begins.
+    fn attitudes(&self) -> Vec<Dcm<Nav, Table>> {
         let given = self.given.iter().map(Planned::nav_from_table);
         if self.tilts.is_none() && self.limits.directions == 1 {
             return given.take(1).collect();
@@ -153,6 +173,32 @@ impl Optimization<'_> {
         self.given[0].has_table_reading() || attitude.matrix()[(2, 2)].abs() < 0.9998
     }
 
+    /// The design as runs, without the motions that cost more time than they are worth: rotations between static intervals tell something, too.
+    fn simplified(
+        &self,
+        pool: &Pool<'_>,
+        design: &PoolDesign,
+        short: Short,
+    ) -> Result<Option<OptimalSchedule>, DesignError> {
+        let Some(mut best) = self.rounded(pool, design, short)? else { return Ok(None) };
+        let mut design = design.clone();
+        loop {
+            let trials: Vec<PoolDesign> = design.without_a_motion().collect();
+            let schedules = trials
+                .par_iter()
+                .map(|trial| self.rounded(pool, trial, short))
+                .collect::<Result<Vec<_>, DesignError>>()?;
+            let found = trials.into_iter().zip(schedules);
+            let found = found.filter_map(|(trial, schedule)| Some((trial, schedule?)));
+            match found.min_by(|(_, a), (_, b)| a.value.total_cmp(&b.value)) {
+                Some((trial, schedule)) if schedule.value < best.value => {
+                    (design, best) = (trial, schedule);
+                }
+                _ => return Ok(Some(best)),
+            }
+        }
+    }
+
     /// The design as runs; `None` if a run has too little time for any motion.
     fn rounded(
         &self,
@@ -173,7 +219,9 @@ impl Optimization<'_> {
                 return Ok(None);
             };
             let profile = Profile::new(&segments, Some(limits.acceleration))?;
-            let planned = given[0].moved(profile, pool.orientations[place]).since(0);
+            let Orientation { attitude, mounting } = pool.orientations[place];
+            let axes = pool.axes(mounting);
+            let planned = given[0].moved(profile, attitude).with_axes(axes).since(0);
             let shares = shares.iter().copied().filter(|(_, share)| *share > 1e-4).collect();
             runs.push(OptimalRun { planned, segments, shares });
         }

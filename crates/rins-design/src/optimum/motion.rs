@@ -6,12 +6,12 @@ use std::ops::Range;
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use rins_estimation::Joint;
-use rins_frames::{Dcm, Nav, Table};
+use rins_frames::{Dcm, Nav, SignedAxes, Table};
 use rins_motion::{Profile, Segment};
 use rins_terms::Model;
 
 use crate::error::DesignError;
-use crate::library::Limits;
+use crate::limits::{Limits, transit};
 use crate::pair::information;
 use crate::planned::Planned;
 
@@ -72,36 +72,26 @@ impl Motion {
     }
 }
 
-/// The segment that turns a table at rest by an angle \[rad\], if the following one is static; none if the angle is zero.
-pub(super) fn transit(angle: f64, limits: &Limits) -> Vec<Segment> {
-    if angle.abs() < 1e-9 {
-        return Vec::new();
-    }
-    // The ramp at the end is part of the next segment: rate times duration is the angle.
-    let rate = limits.rate.min((angle.abs() * limits.acceleration).sqrt());
-    vec![Segment { rate: rate.copysign(angle), duration: angle.abs() / rate }]
-}
-
-/// The information of each motion in each orientation for one second, in units of the priors; of `n` parameters each.
+/// The information of each motion of an axis with this attitude for one second, in units of the priors; of `n` parameters each.
 ///
-/// It is that of the counted part after the part before, so that what a start costs is not in it.
+/// The models are along the axes of the run. The information is that of the counted part after the part before, so that what a start costs is not in it.
 ///
 /// # Errors
 /// As of [`information`].
 pub(super) fn informations(
     given: &Planned,
-    model: &Model,
     limits: &Limits,
-    pieces: &[(Dcm<Nav, Table>, Motion)],
+    pieces: &[(Dcm<Nav, Table>, &Model, Motion)],
 ) -> Result<Vec<DMatrix<f64>>, DesignError> {
     let lead = (SETTLED * given.time_constant()).clamp(BEFORE.start, BEFORE.end);
     pieces
         .par_iter()
-        .map(|&(attitude, motion)| {
+        .map(|&(attitude, model, motion)| {
             let (mut segments, counted) = motion.segments(limits, lead);
             let of = |segments: &[Segment]| -> Result<Joint, DesignError> {
                 let profile = Profile::new(segments, Some(limits.acceleration))?;
-                information(&[given.moved(profile, attitude).sampled_coarsely()], model)
+                let planned = given.moved(profile, attitude).with_axes(SignedAxes::IDENTITY);
+                information(&[planned.sampled_coarsely()], model)
             };
             let before = of(&segments)?.information();
             segments.push(counted);

@@ -1,17 +1,27 @@
 //! The pool of candidates: motions in orientations of the axis, as elements of a design.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
 use nalgebra::DMatrix;
 use rins_estimation::Unknown;
-use rins_frames::{Dcm, Nav, Table};
-use rins_terms::{FreeParameter, Model, Owner};
+use rins_frames::{Dcm, Nav, SignedAxes, Table};
+use rins_terms::{FreeParameter, Model};
 
 use super::approximate::ApproximateDesign;
 use super::element::Element;
 use super::motion::{Motion, informations};
+use super::mounting::Mounting;
 use super::objective::Objective;
 use crate::error::DesignError;
-use crate::library::Limits;
+use crate::limits::Limits;
 use crate::planned::Planned;
+
+/// The shortest run in one of several orientations \[s\].
+const SHORTEST_RUN: f64 = 20.0;
+
+/// The share of a motion that is not part of a design.
+const NEGLIGIBLE: f64 = 1e-9;
 
 /// Two orientations whose axes differ by less are one \[rad\].
 const SAME: f64 = 1e-6;
@@ -19,14 +29,24 @@ const SAME: f64 = 1e-6;
 /// The pool of candidates.
 pub(super) struct Pool<'a> {
     given: &'a Planned,
-    model: &'a Model,
     limits: &'a Limits,
-    free: Vec<FreeParameter>,
+    mountings: Vec<Mounting>,
+    /// The parameters that all runs share.
+    shared: Vec<FreeParameter>,
     motions: Vec<Motion>,
-    /// The attitude of the axis frame in each orientation.
-    pub(super) orientations: Vec<Dcm<Nav, Table>>,
-    /// The information of each motion in each orientation for one second.
-    informations: Vec<Vec<DMatrix<f64>>>,
+    /// The orientations.
+    pub(super) orientations: Vec<Orientation>,
+    /// The information of each motion in each orientation for one second, on the parameters of a run.
+    informations: Vec<Arc<Vec<DMatrix<f64>>>>,
+}
+
+/// An orientation of the spin axis and of the IMU about it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Orientation {
+    /// The attitude of the axis frame.
+    pub(super) attitude: Dcm<Nav, Table>,
+    /// The mounting of the IMU, of those of the pool.
+    pub(super) mounting: usize,
 }
 
 /// A design of motions in some orientations of a pool.
@@ -41,12 +61,19 @@ pub(super) struct PoolDesign {
 }
 
 impl<'a> Pool<'a> {
-    pub(super) fn new(given: &'a Planned, model: &'a Model, limits: &'a Limits) -> Self {
+    /// A pool without candidates, for an IMU that can be mounted with these axes. The model is along the sensors' own axes.
+    pub(super) fn new(
+        given: &'a Planned,
+        model: &Model,
+        limits: &'a Limits,
+        axes: &[SignedAxes],
+    ) -> Self {
+        let (mountings, shared) = Mounting::all(axes, model, &given.imu);
         Self {
             given,
-            model,
             limits,
-            free: model.free(&given.imu),
+            mountings,
+            shared,
             motions: Motion::all(limits),
             orientations: Vec::new(),
             informations: Vec::new(),
@@ -64,28 +91,53 @@ impl<'a> Pool<'a> {
     /// As of [`information`](crate::information).
     pub(super) fn add(
         &mut self,
-        attitudes: impl IntoIterator<Item = Dcm<Nav, Table>>,
+        orientations: impl IntoIterator<Item = Orientation>,
     ) -> Result<(), DesignError> {
         let first = self.orientations.len();
-        for attitude in attitudes {
-            let same =
-                |other: &Dcm<Nav, Table>| (other.matrix() - attitude.matrix()).abs().max() < SAME;
+        for one in orientations {
+            let same = |other: &Orientation| {
+                other.mounting == one.mounting && is_same(&other.attitude, &one.attitude)
+            };
             if !self.orientations.iter().any(same) {
-                self.orientations.push(attitude);
+                self.orientations.push(one);
             }
         }
-        let pieces: Vec<(Dcm<Nav, Table>, Motion)> = self.orientations[first..]
-            .iter()
-            .flat_map(|&attitude| self.motions.iter().map(move |&motion| (attitude, motion)))
+        // Mountings with the same model differ in the names of the parameters only.
+        let model = |one: &Orientation| &self.mountings[one.mounting].model;
+        let known = |place: usize| {
+            let one = &self.orientations[place];
+            self.orientations[..place].iter().position(|other| {
+                model(other) == model(one) && is_same(&other.attitude, &one.attitude)
+            })
+        };
+        let added = first..self.orientations.len();
+        let sources: Vec<Option<usize>> = added.clone().map(known).collect();
+        let pieces: Vec<(Orientation, Motion)> = added
+            .zip(&sources)
+            .filter(|(_, source)| source.is_none())
+            .flat_map(|(place, _)| {
+                let orientation = self.orientations[place];
+                self.motions.iter().map(move |&motion| (orientation, motion))
+            })
             .collect();
-        let all = informations(self.given, self.model, self.limits, &pieces)?;
-        self.informations.extend(all.chunks(self.motions.len()).map(<[_]>::to_vec));
+        let pieces: Vec<(Dcm<Nav, Table>, &Model, Motion)> =
+            pieces.iter().map(|(one, motion)| (one.attitude, model(one), *motion)).collect();
+        let all = informations(self.given, self.limits, &pieces)?;
+        let mut computed = all.chunks(self.motions.len()).map(|chunk| Arc::new(chunk.to_vec()));
+        for source in sources {
+            let information = source.map(|place| self.informations[place].clone());
+            self.informations.extend(information.or_else(|| computed.next()));
+        }
         Ok(())
+    }
+
+    /// The axes of a mounting.
+    pub(super) fn axes(&self, mounting: usize) -> SignedAxes {
+        self.mountings[mounting].axes
     }
 
     /// The parameters of all runs, which are in one power-on.
     pub(super) fn unknowns(&self) -> Vec<Unknown> {
-        let shared = self.free.iter().filter(|free| free.owner != Owner::Placement);
         let unknown = |free: &FreeParameter| Unknown {
             id: free.id.clone(),
             model_id: free.id.clone(),
@@ -93,15 +145,7 @@ impl<'a> Pool<'a> {
             unit: free.unit,
             sigma: free.sigma,
         };
-        shared.map(unknown).collect()
-    }
-
-    /// The places of a run's parameters: those of all runs, then those of its orientation.
-    fn order(&self) -> Vec<usize> {
-        let is_own = |place: &usize| self.free[*place].owner == Owner::Placement;
-        let (own, mut order): (Vec<usize>, Vec<usize>) = (0..self.free.len()).partition(is_own);
-        order.extend(own);
-        order
+        self.shared.iter().map(unknown).collect()
     }
 
     /// The best design of motions in these orientations for runs of this total duration \[s\], to a gap `close`.
@@ -114,12 +158,24 @@ impl<'a> Pool<'a> {
         orientations: &[usize],
         (duration, close): (f64, f64),
     ) -> Result<PoolDesign, DesignError> {
+        self.design_near(objective, orientations, None, (duration, close))
+    }
+
+    /// The same from the shares of a design of some of these orientations.
+    pub(super) fn design_near(
+        &self,
+        objective: &Objective<'_>,
+        orientations: &[usize],
+        near: Option<&PoolDesign>,
+        (duration, close): (f64, f64),
+    ) -> Result<PoolDesign, DesignError> {
         let all = 0..self.motions.len();
         let candidates: Vec<(usize, usize)> = orientations
             .iter()
             .flat_map(|&group| all.clone().map(move |motion| (group, motion)))
             .collect();
-        self.of_candidates(objective, &candidates, (duration, close))
+        let start = near.map(|near| near.start(orientations, self.motions.len()));
+        self.of_candidates(objective, &candidates, start, (duration, close))
     }
 
     /// The same design, or a nearly equal one, with the fewest motions in each orientation.
@@ -142,7 +198,8 @@ impl<'a> Pool<'a> {
                     order.into_iter().map(move |motion| (group, motion)).collect::<Vec<_>>()
                 })
                 .collect();
-            let Ok(simple) = self.of_candidates(objective, &candidates, (duration, loss)) else {
+            let Ok(simple) = self.of_candidates(objective, &candidates, None, (duration, loss))
+            else {
                 continue;
             };
             if criterion.efficiency(simple.design.value, design.design.value) > 1.0 - loss {
@@ -158,21 +215,42 @@ impl<'a> Pool<'a> {
         &self,
         objective: &Objective<'_>,
         candidates: &[(usize, usize)],
+        start: Option<Vec<f64>>,
         (duration, close): (f64, f64),
     ) -> Result<PoolDesign, DesignError> {
         let (criterion, prior) = objective.criterion(&self.unknowns());
-        let order = self.order();
         let element = |&(group, motion): &(usize, usize)| {
-            let information = &self.informations[group][motion];
-            let information = duration * information.select_rows(&order).select_columns(&order);
+            let mounting = &self.mountings[self.orientations[group].mounting];
+            let information = duration * mounting.of_design(&self.informations[group][motion]);
             Element { group, information }
         };
         let elements: Vec<Element> = candidates.iter().map(element).collect();
-        let design = ApproximateDesign::of(&prior, &elements, &criterion, close)
-            .ok_or(DesignError::Undetermined)?;
+        let mut design = match start {
+            Some(start) => {
+                ApproximateDesign::from_start(&prior, &elements, &criterion, (start, close))
+            }
+            None => ApproximateDesign::of(&prior, &elements, &criterion, close),
+        }
+        .ok_or(DesignError::Undetermined)?;
+        // A run takes some time even if the optimum has it for an instant.
+        let groups: Vec<usize> = candidates.iter().map(|(group, _)| *group).collect();
+        if let Some(weights) = extended(&design.weights, &groups, SHORTEST_RUN / duration) {
+            design = design
+                .with_weights(weights, &prior, &elements, &criterion)
+                .ok_or(DesignError::Undetermined)?;
+        }
         let mut orientations: Vec<usize> = Vec::new();
         let mut shares: Vec<Vec<(Motion, f64)>> = Vec::new();
+        let is_used = |group: usize| {
+            groups
+                .iter()
+                .zip(&design.weights)
+                .any(|(other, weight)| *other == group && *weight > 0.0)
+        };
         for (&(group, motion), &weight) in candidates.iter().zip(&design.weights) {
+            if !is_used(group) {
+                continue;
+            }
             if orientations.last() != Some(&group) {
                 orientations.push(group);
                 shares.push(Vec::new());
@@ -185,10 +263,98 @@ impl<'a> Pool<'a> {
     }
 }
 
+/// The weights with at least the share `least` for each group that has one, if there are several such groups and there is enough for all; the
+/// others have less in proportion. `None` if nothing changes.
+fn extended(weights: &[f64], groups: &[usize], least: f64) -> Option<Vec<f64>> {
+    let mut shares: BTreeMap<usize, f64> = BTreeMap::new();
+    for (&group, weight) in groups.iter().zip(weights) {
+        *shares.entry(group).or_default() += weight;
+    }
+    shares.retain(|_, share| *share > 0.0);
+    if shares.len() < 2 || shares.len() as f64 * least > 1.0 {
+        return None;
+    }
+    let mut short: BTreeSet<usize> = BTreeSet::new();
+    let scale = loop {
+        let rest: f64 =
+            shares.iter().filter(|(group, _)| !short.contains(group)).map(|(_, share)| share).sum();
+        let scale = (1.0 - least * short.len() as f64) / rest;
+        let more =
+            shares.iter().find(|(group, share)| !short.contains(group) && **share * scale < least);
+        match more {
+            Some((&group, _)) => short.insert(group),
+            None => break scale,
+        };
+    };
+    let factor = |group: &usize| match shares.get(group) {
+        Some(share) if short.contains(group) => least / share,
+        _ => scale,
+    };
+    let changed =
+        || groups.iter().zip(weights).map(|(group, weight)| weight * factor(group)).collect();
+    (!short.is_empty()).then(changed)
+}
+
+fn is_same(one: &Dcm<Nav, Table>, other: &Dcm<Nav, Table>) -> bool {
+    (one.matrix() - other.matrix()).abs().max() < SAME
+}
+
 impl PoolDesign {
-    /// The share of the orientation that has the smallest one.
-    pub(super) fn least(&self) -> f64 {
+    /// Shares of all motions in these orientations: those of this design, and for an orientation that it does not have the even part of one
+    /// orientation.
+    fn start(&self, orientations: &[usize], motions: usize) -> Vec<f64> {
+        let even = 1.0 / (orientations.len() * motions) as f64;
+        let mut shares: Vec<f64> = Vec::new();
+        for orientation in orientations {
+            match self.orientations.iter().position(|own| own == orientation) {
+                Some(place) => shares.extend(self.shares[place].iter().map(|(_, share)| share)),
+                None => shares.extend(std::iter::repeat_n(even, motions)),
+            }
+        }
+        let whole: f64 = shares.iter().sum();
+        for share in &mut shares {
+            *share /= whole;
+        }
+        shares
+    }
+
+    /// At most so many orientations with a share, those with the largest ones, in the order of the pool.
+    pub(super) fn largest(&self, count: usize) -> Vec<usize> {
+        let share =
+            |place: &usize| -> f64 { self.shares[*place].iter().map(|(_, share)| share).sum() };
+        let mut places: Vec<usize> = (0..self.orientations.len()).collect();
+        places.sort_by(|a, b| share(b).total_cmp(&share(a)));
+        places.truncate(count);
+        places.sort_unstable();
+        places.into_iter().map(|place| self.orientations[place]).collect()
+    }
+
+    /// The same design without one of the motions of a run that has several, for each of them.
+    pub(super) fn without_a_motion(&self) -> impl Iterator<Item = Self> {
+        let runs = self.shares.iter().enumerate();
+        let used = runs.flat_map(|(run, shares)| {
+            let used: Vec<usize> =
+                (0..shares.len()).filter(|&motion| shares[motion].1 > NEGLIGIBLE).collect();
+            let several = used.len() > 1;
+            used.into_iter().filter(move |_| several).map(move |motion| (run, motion))
+        });
+        used.map(|(run, motion)| {
+            let mut fewer = self.clone();
+            let whole: f64 = self.shares[run].iter().map(|(_, share)| share).sum();
+            fewer.shares[run][motion].1 = 0.0;
+            let rest: f64 = fewer.shares[run].iter().map(|(_, share)| share).sum();
+            // The run keeps its time.
+            for (_, share) in &mut fewer.shares[run] {
+                *share *= whole / rest;
+            }
+            fewer
+        })
+    }
+
+    /// Whether runs of this total duration \[s\] are long enough in each orientation.
+    pub(super) fn is_runnable(&self, duration: f64) -> bool {
         let whole = |shares: &Vec<(Motion, f64)>| shares.iter().map(|(_, share)| share).sum();
-        self.shares.iter().map(whole).fold(1.0, f64::min)
+        let least = self.shares.iter().map(whole).fold(1.0, f64::min);
+        self.orientations.len() == 1 || least * duration > SHORTEST_RUN * (1.0 - 1e-9)
     }
 }

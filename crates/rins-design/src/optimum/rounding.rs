@@ -2,8 +2,8 @@
 
 use rins_motion::Segment;
 
-use super::motion::{Motion, transit};
-use crate::library::Limits;
+use super::motion::Motion;
+use crate::limits::{Limits, transit};
 
 /// The shortest time for a motion, apart from its ramp \[s\].
 const SHORTEST: f64 = 4.0;

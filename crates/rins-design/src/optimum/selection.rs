@@ -6,10 +6,7 @@ use super::criterion::Criterion;
 use super::objective::Objective;
 use super::pool::{Pool, PoolDesign};
 use crate::error::DesignError;
-use crate::library::Limits;
-
-/// The shortest run in an orientation \[s\].
-const SHORTEST_RUN: f64 = 20.0;
+use crate::limits::Limits;
 
 /// The gain by another orientation, relative to a variance, below which it is not worth a change.
 const GAIN: f64 = 0.01;
@@ -19,6 +16,9 @@ const LOSS: f64 = 3e-3;
 
 /// The gap at which orientations are compared.
 const ROUGH: f64 = 1e-2;
+
+/// The number of orientations of the whole pool that are considered, relative to the number that the schedule may have.
+const MOST_AT_FIRST: usize = 2;
 
 /// The largest number of changes for one pool.
 const MOST_CHANGES: usize = 8;
@@ -32,15 +32,41 @@ pub(super) struct Selection<'a> {
 }
 
 impl<'a> Selection<'a> {
-    /// The first orientation of the pool.
+    /// The better of two starts, each improved: the first orientation of the pool, and the design of all orientations, from which one after
+    /// the other is left out.
     pub(super) fn new(
         objective: &'a Objective<'a>,
         limits: &'a Limits,
         pool: &Pool<'_>,
     ) -> Result<Self, DesignError> {
         let (criterion, _) = objective.criterion(&[]);
-        let design = pool.design(objective, &[0], (limits.duration, ROUGH))?;
-        Ok(Self { objective, limits, criterion, design })
+        let from = |orientations: &[usize]| {
+            let design = pool.design(objective, orientations, (limits.duration, ROUGH))?;
+            let mut selection = Self { objective, limits, criterion: criterion.clone(), design };
+            selection.improve(pool)?;
+            Ok::<Self, DesignError>(selection)
+        };
+        let first = from(&[0])?;
+        if limits.directions == 1 {
+            return Ok(first);
+        }
+        let all: Vec<usize> = (0..pool.orientations.len()).collect();
+        let all = pool.design(objective, &all, (limits.duration, ROUGH))?;
+        let design = pool.design_near(
+            objective,
+            &all.largest(MOST_AT_FIRST * limits.directions),
+            Some(&all),
+            (limits.duration, ROUGH),
+        )?;
+        let mut second = Self { objective, limits, criterion: criterion.clone(), design };
+        while second.design.orientations.len() > limits.directions
+            || !second.design.is_runnable(limits.duration)
+        {
+            let Some(fewer) = second.without_one(&second.design, pool)? else { break };
+            second.design = fewer;
+        }
+        second.improve(pool)?;
+        Ok(if first.gains(&second.design) { second } else { first })
     }
 
     /// Adds and exchanges orientations, one after the other, as long as that gains something.
@@ -61,11 +87,14 @@ impl<'a> Selection<'a> {
             }
             let designs = trials
                 .into_par_iter()
-                .map(|trial| pool.design(self.objective, &trial, (self.limits.duration, ROUGH)))
+                .map(|trial| {
+                    let close = (self.limits.duration, ROUGH);
+                    pool.design_near(self.objective, &trial, Some(&self.design), close)
+                })
                 .collect::<Result<Vec<PoolDesign>, DesignError>>()?;
             let best = designs
                 .into_iter()
-                .filter(|design| self.is_runnable(design))
+                .filter(|design| design.is_runnable(self.limits.duration))
                 .min_by(|a, b| a.design.value.total_cmp(&b.design.value));
             match best {
                 Some(best) if self.gains(&best) => self.design = best,
@@ -75,13 +104,29 @@ impl<'a> Selection<'a> {
         Ok(())
     }
 
-    /// Whether each run is long enough.
-    fn is_runnable(&self, design: &PoolDesign) -> bool {
-        design.orientations.len() == 1 || design.least() * self.limits.duration >= SHORTEST_RUN
-    }
-
     fn gains(&self, other: &PoolDesign) -> bool {
         self.criterion.efficiency(self.design.design.value, other.design.value) < 1.0 - GAIN
+    }
+
+    /// The best design without one of the orientations of this one, the one that is missed least; `None` if it has only one.
+    fn without_one(
+        &self,
+        design: &PoolDesign,
+        pool: &Pool<'_>,
+    ) -> Result<Option<PoolDesign>, DesignError> {
+        if design.orientations.len() < 2 {
+            return Ok(None);
+        }
+        let without = |place: usize| {
+            let mut kept = design.orientations.clone();
+            kept.remove(place);
+            pool.design_near(self.objective, &kept, Some(design), (self.limits.duration, ROUGH))
+        };
+        let designs = (0..design.orientations.len())
+            .into_par_iter()
+            .map(without)
+            .collect::<Result<Vec<PoolDesign>, DesignError>>()?;
+        Ok(designs.into_iter().min_by(|a, b| a.design.value.total_cmp(&b.design.value)))
     }
 
     /// The first orientation of the pool alone, then subsets of those selected, with more and more orientations; each with as few motions as
@@ -90,19 +135,7 @@ impl<'a> Selection<'a> {
         let duration = self.limits.duration;
         let mut subsets = vec![self.design.orientations.clone()];
         let mut last = self.design.clone();
-        while last.orientations.len() > 1 {
-            // Without the orientation that is missed least.
-            let without = (0..last.orientations.len()).map(|place| {
-                let mut kept = last.orientations.clone();
-                kept.remove(place);
-                pool.design(self.objective, &kept, (duration, ROUGH))
-            });
-            let designs = without.collect::<Result<Vec<PoolDesign>, DesignError>>()?;
-            let Some(best) =
-                designs.into_iter().min_by(|a, b| a.design.value.total_cmp(&b.design.value))
-            else {
-                break;
-            };
+        while let Some(best) = self.without_one(&last, pool)? {
             subsets.push(best.orientations.clone());
             last = best;
         }

@@ -1,6 +1,7 @@
 //! The joint evidence of several runs of one IMU.
 
 use nalgebra::DMatrix;
+use rins_frames::SignedAxes;
 use rins_imu::ImuSpec;
 use rins_terms::Model;
 
@@ -52,8 +53,8 @@ impl Joint {
 
 /// The joint evidence of `runs` of one IMU on the free parameters of `model`, linearized at the values of the model.
 ///
-/// Parameters of the sensors are shared; parameters of a run belong to that run. The model, and all ids, are along the axes
-/// of the first run.
+/// Parameters of the sensors are shared; parameters of a run belong to that run. The model, and all ids, are along the
+/// sensors' own axes.
 ///
 /// # Errors
 /// [`JointError`] if an innovation covariance of a run is not positive definite.
@@ -63,7 +64,7 @@ pub fn joint(
     imu: &ImuSpec,
     strengths: &NoiseParameters,
 ) -> Result<Joint, JointError> {
-    let Joined { models, free, layout } = Joined::of(model, imu, runs);
+    let Joined { models, free, layout } = Joined::of(model, &SignedAxes::IDENTITY, imu, runs);
     let Layout { all, places, signs } = layout;
     let mut evidence = Evidence::none(all.len());
     for (number, run) in runs.iter().enumerate() {

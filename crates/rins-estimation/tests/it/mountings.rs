@@ -206,6 +206,46 @@ fn what_belongs_to_the_axis_of_rotation_is_another_gyros_in_another_mounting() {
     assert_eq!(ids(minus_x), [&two[..1], &biases].concat());
 }
 
+/// An IMU that stays on while it is mounted otherwise keeps its turn-on biases: what is level in one mounting is vertical in another, which
+/// separates the biases of the accelerometers from their scale errors; and the errors of 24 parameters agree with their covariance.
+#[test]
+fn turn_on_biases_outlive_a_change_of_the_mounting() {
+    let imus = 12;
+    let one = |seed: u64| {
+        let error = drawn(seed);
+        let ways = [(2.0, 0.0), (3.0, 70.0), (4.0, 200.0)];
+        let runs: Vec<Run> = (0..3)
+            .map(|k| mounted(&error, mountings()[(k + 1) % 3], ways[k], 10 * seed + k as u64))
+            .collect();
+        let apart = fitted(&runs, &Model::full());
+        let together: Vec<Run> = runs.into_iter().map(|run| run.since(0)).collect();
+        let together = fitted(&together, &Model::full()).along(SignedAxes::IDENTITY);
+        let of_imu: Vec<usize> = (0..together.parameters.len())
+            .filter(|&place| together.parameters[place].parameter.owner != Owner::Placement)
+            .collect();
+        assert_eq!(of_imu.len(), 24);
+        assert!(of_imu.iter().all(|&place| together.parameters[place].run.is_none()));
+        let sigma = |fit: &Fit, id: &str| {
+            let of = |estimate: &&rins_estimation::Estimate| estimate.parameter.id == id;
+            fit.parameters.iter().filter(of).map(|one| one.sigma).fold(f64::INFINITY, f64::min)
+        };
+        for id in ["accel.scale.x", "accel.scale.y", "accel.scale.z"] {
+            let (together, apart) = (sigma(&together, id), sigma(&apart, id));
+            assert!(together < 0.5 * apart, "{id}: {together} {apart}");
+        }
+        let off = of_imu.iter().map(|&place| {
+            let estimate = &together.parameters[place];
+            estimate.value - truth(&error, &estimate.parameter.id).unwrap()
+        });
+        let off = DVector::from_iterator(24, off);
+        let covariance = together.covariance.select_rows(&of_imu).select_columns(&of_imu);
+        off.dot(&covariance.cholesky().unwrap().solve(&off))
+    };
+    let sum: f64 = (0..imus).into_par_iter().map(one).sum();
+    let dof = 24.0 * imus as f64;
+    assert!((sum - dof).abs() < 4.0 * (2.0 * dof).sqrt(), "{sum} where {dof} are expected");
+}
+
 /// The model is along the first run's axes: the prior of a sensor applies in every run.
 #[test]
 fn what_is_expected_goes_with_the_sensor() {

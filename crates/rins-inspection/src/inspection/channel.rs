@@ -14,6 +14,10 @@ const SPIKE_RATIO: f64 = 50.0;
 /// ... and to the largest difference nearby: an impact has other differences beside it ...
 const SPIKE_ALONE: f64 = 10.0;
 
+/// ... and to the excursions of single samples that more than one in so many samples exceeds: those are noise, as of a coarse sensor
+/// whose readings were rounded once more ...
+const RARE: usize = 100;
+
 /// ... unless at most this number of readings are so large, and the tail of the others predicts more than this number of
 /// them: noise with heavy tails has a largest reading too.
 const OF_TAIL: (usize, f64) = (2, 1e-3);
@@ -188,8 +192,11 @@ fn spikes(readings: &[f64]) -> Option<Spikes> {
     let steps = steps(readings);
     let scatter = scatter(readings, &steps)?;
     let most = readings.iter().fold(0.0, |most: f64, reading| most.max(reading.abs()));
+    let sizes: Vec<f64> = steps.windows(2).map(|pair| there_and_back([pair[0], pair[1]])).collect();
     // The rounding error of readings without noise is not a scatter.
-    let least = (SPIKE_RATIO * scatter).max(1e-9 * most);
+    let least = (SPIKE_RATIO * scatter)
+        .max(1e-9 * most)
+        .max(SPIKE_ALONE * exceeded_by_one_in(RARE, &sizes));
     let alone = |index: usize, size: f64| {
         let nearby = index.saturating_sub(NEARBY)..(index + 1 + NEARBY).min(steps.len());
         nearby.filter(|&other| other + 1 != index && other != index).all(|other| {
@@ -197,7 +204,6 @@ fn spikes(readings: &[f64]) -> Option<Spikes> {
             steps[other].abs() * SPIKE_ALONE < size || is_spike(&steps, other, least)
         })
     };
-    let sizes: Vec<f64> = steps.windows(2).map(|pair| there_and_back([pair[0], pair[1]])).collect();
     let mut count = 0;
     let mut largest = (0.0, 0);
     for (before, &size) in sizes.iter().enumerate() {
@@ -211,6 +217,16 @@ fn spikes(readings: &[f64]) -> Option<Spikes> {
     }
     let is_tail = || count <= OF_TAIL.0 && expected_beyond(largest.0, sizes, least) > OF_TAIL.1;
     (count > 0 && !is_tail()).then_some(Spikes { count, largest: largest.1 })
+}
+
+/// The value that one in `count` of the values exceeds; zero if there are none.
+fn exceeded_by_one_in(count: usize, values: &[f64]) -> f64 {
+    let mut values = values.to_vec();
+    let beyond = values.len() / count;
+    match (values.len() - beyond).checked_sub(1) {
+        Some(place) => *values.select_nth_unstable_by(place, f64::total_cmp).1,
+        None => 0.0,
+    }
 }
 
 /// The expected number of values beyond `size`, from the largest of those below `least` and a power-law tail (‹hill1975›).

@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod axes;
+mod coarse;
 mod inspection;
 mod late_table;
 mod lever_arm;

@@ -118,10 +118,9 @@ impl ScenarioGrid {
                 put(&mut document.root, &axis.key, value)
                     .map_err(|problem| refusal(path, &axis.key, Some(axis.line), problem))?;
             }
-            Ok(GridCell {
-                values: values.iter().map(|(_, value)| shown(value)).collect(),
-                file: ScenarioFile::from_document(document)?,
-            })
+            let file = ScenarioFile::from_document(document)?;
+            file.require_spin_about_z("a campaign simulates runs about z; leave this out")?;
+            Ok(GridCell { values: values.iter().map(|(_, value)| shown(value)).collect(), file })
         };
         Ok(Self {
             cells: (0..cells).map(cell).collect::<Result<_, IoError>>()?,

@@ -58,15 +58,17 @@ fn quantity(value: f64, unit: Unit) -> String {
     if unit == Unit::ONE { format!("{number}") } else { format!("\"{number} {}\"", unit.symbol) }
 }
 
-/// The parameters of the term at index `term` of a model, in their units.
-pub(crate) fn parameters(model: &Model, term: usize) -> Vec<Parameter> {
+/// The parameters of the term at index `term` of the model of a run with these axes, along the sensors' own axes and in their units.
+pub(crate) fn parameters(model: &Model, term: usize, axes: &SignedAxes) -> Vec<Parameter> {
     let chosen = &model.terms[term];
-    let pairs = chosen.term.parameters.iter().zip(&chosen.values).enumerate();
-    pairs
-        .map(|(place, (parameter, &value))| Parameter {
-            id: model.id(term, place),
-            value: value / parameter.unit.factor,
-            unit: parameter.unit.symbol,
-        })
-        .collect()
+    let own = |place: usize| {
+        let unit = chosen.term.parameters[place].unit;
+        let (_, sign) = chosen.own(place, axes);
+        Parameter {
+            id: model.own_id(term, place, axes),
+            value: sign * chosen.values[place] / unit.factor,
+            unit: unit.symbol,
+        }
+    };
+    chosen.term.own_order(axes).into_iter().map(own).collect()
 }

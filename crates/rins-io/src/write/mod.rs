@@ -14,6 +14,7 @@ mod psins;
 pub(crate) mod rig_text;
 mod signals;
 
+use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -21,10 +22,13 @@ use std::path::{Path, PathBuf};
 pub use compare::Difference;
 pub use convert::{Converted, convert, convert_changed};
 pub use csv::write_recording;
+use rins_frames::InFrame;
+use rins_motion::Recording;
 
 use self::failure::Failure;
 use crate::error::IoError;
 use crate::log::Loaded;
+use crate::rig::Axes;
 
 /// A format for the output of logs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,6 +97,20 @@ impl LogFile {
     pub const fn holds_more_than_the_imu(self) -> bool {
         matches!(self, Self::Csv | Self::Parquet | Self::Mat)
     }
+}
+
+/// A recording of a run with these axes, with its readings along the sensors' own axes: exact, because axes are only permuted and reversed.
+pub(crate) fn along_own_axes<'r>(recording: &'r Recording, spin: &Axes) -> Cow<'r, Recording> {
+    if *spin == Axes::IDENTITY {
+        return Cow::Borrowed(recording);
+    }
+    let back = spin.inverse();
+    let mut own = recording.clone();
+    for sample in &mut own.increments {
+        sample.angle = InFrame::from_components(back.apply(sample.angle.components()));
+        sample.velocity = InFrame::from_components(back.apply(sample.velocity.components()));
+    }
+    Cow::Owned(own)
 }
 
 /// Writes a recording as a log of this format.

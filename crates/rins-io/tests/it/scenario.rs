@@ -149,6 +149,36 @@ const EFFECTS: &str = r#"effects = [
 ]
 "#;
 
+/// About another axis of the IMU the truth is along its own axes, and that of the run along those of the table.
+#[test]
+fn truth_is_along_the_axes_of_the_imu() {
+    let effect = "effects = [{ id = \"gyro_g_sensitivity\", zx = \"1 deg/h/g\" }]\n";
+    let text = replaced(SCENARIO, "seed = 7\n", &format!("seed = 7\n{effect}"));
+    let about_z = parse(&text).unwrap();
+    let about_x = parse(&format!("{text}\n[axis]\nspin = \"-x\"\n")).unwrap();
+    assert_eq!(about_x.spin.spin_name(), "-x");
+    // x, y and z of the run are y, -z and -x of the IMU.
+    let (own, run) = (about_z.scenario.imu_error.gyro, about_x.scenario.imu_error.gyro);
+    assert_close!(run.bias[2], -own.bias[0], 1e-22);
+    assert_close!(run.matrix[(1, 1)], own.matrix[(2, 2)], 1e-18);
+    assert_close!(run.matrix[(2, 1)], own.matrix[(0, 2)], 1e-18);
+    assert_eq!(
+        about_x.scenario.effects.value("gyro_g_sensitivity.yz"),
+        about_z.scenario.effects.value("gyro_g_sensitivity.zx")
+    );
+    let truth = |file: &ScenarioFile| -> Vec<(String, f64)> {
+        let truth: serde_json::Value = serde_json::from_str(&file.truth_json()).unwrap();
+        let effects = truth["effects"][0]["parameters"].as_array().unwrap();
+        let all = truth["parameters"].as_array().unwrap().iter().chain(effects);
+        all.map(|one| (one["id"].as_str().unwrap().into(), one["value"].as_f64().unwrap()))
+            .collect()
+    };
+    for ((id, value), (other, same)) in truth(&about_z).into_iter().zip(truth(&about_x)) {
+        assert_eq!(id, other);
+        assert_close!(value, same, 1e-12 * (1.0 + value.abs()));
+    }
+}
+
 #[test]
 fn effects_arrive_in_si_units() {
     let effects =
@@ -165,8 +195,7 @@ fn effects_arrive_in_si_units() {
 #[test]
 fn the_truth_of_a_run_tells_its_effects() {
     let file = parse(&replaced(SCENARIO, "seed = 7\n", &format!("seed = 7\n{EFFECTS}"))).unwrap();
-    let truth: serde_json::Value =
-        serde_json::from_str(&rins_io::truth_json(&file.scenario)).unwrap();
+    let truth: serde_json::Value = serde_json::from_str(&file.truth_json()).unwrap();
     let effects = truth["effects"].as_array().unwrap();
     assert_eq!(effects.len(), 2);
     assert_eq!(effects[0]["id"], "encoder.zero");
@@ -266,8 +295,7 @@ profile = [
 #[test]
 fn the_truth_of_a_run_names_every_parameter() {
     let file = parse(SCENARIO).unwrap();
-    let truth: serde_json::Value =
-        serde_json::from_str(&rins_io::truth_json(&file.scenario)).unwrap();
+    let truth: serde_json::Value = serde_json::from_str(&file.truth_json()).unwrap();
     assert_eq!((&truth["schema"], &truth["seed"]), (&1.into(), &7.into()));
     assert_close!(truth["attitude_deg"]["yaw"].as_f64().unwrap(), 40.03, 1e-12);
     let parameters = truth["parameters"].as_array().unwrap();
@@ -312,7 +340,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("rate = \"50 Hz\"", "rate = \"50 Hz\"\npath = \"../run.csv\"", "scenario.toml:9: [log] path: \"../run.csv\" is not allowed, expected the name of a csv file, such as \"run.csv\""),
     ("rate = \"50 Hz\"", "rate = \"50 Hz\"\nformat = \"psins\"", "scenario.toml:9: [log] format: \"psins\" is not allowed, expected \"csv\""),
     ("noise = \"0.3 arcsec\",", "latency = \"1 ms\",", "scenario.toml:9: [log] table_angle.latency: is not simulated; list the effect encoder_latency instead"),
-    ("[table]", "[axis]\nspin = \"x\"\n[table]", "scenario.toml:18: [axis] spin: a scenario spins about z; leave this out"),
+    ("[table]", "[axis]\nspin = \"w\"\n[table]", "scenario.toml:18: [axis] spin: \"w\" is not allowed, expected a body axis such as \"z\" or \"-x\""),
     ("[truth.attitude]", "[truth.atitude]", "scenario.toml:40: [truth] atitude: unknown key; did you mean \"attitude\"?"),
     ("yaw = \"40.03 deg\"\n", "", "scenario.toml:40: [truth.attitude] yaw: missing, expected an angle such as \"30 deg\""),
 ];

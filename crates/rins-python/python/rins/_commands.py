@@ -444,6 +444,7 @@ def design(
     max_acceleration: str | None = None,
     directions: int = 3,
     tilts: Sequence[str] | None = None,
+    mountings: Sequence[str] = (),
     service: Pathlike | None = None,
     progress: bool | Report = False,
 ) -> Result[schema.DesignResult]:
@@ -465,6 +466,8 @@ def design(
         The maximum number of orientations of the spin axis, 1 to 6.
     tilts : sequence of str, optional
         The tilts of the spin axis that the table allows, such as ``["0 deg", "45 deg"]``; by default any from 0 to 90 deg.
+    mountings : sequence of str
+        The axes of the IMU that can be mounted along the spin axis, such as ``["x", "y", "z"]``; by default that of the scenario.
     service : path-like, optional
         The mission file of the system in service, for a position error.
     progress : bool or callable
@@ -480,6 +483,7 @@ def design(
             "max_acceleration": max_acceleration,
             "directions": directions,
             "tilts": None if tilts is None else list(tilts),
+            "mountings": list(mountings),
             "service": _optional(service),
         },
         listener(progress),

@@ -114,6 +114,7 @@ class _Design(TypedDict):
     max_acceleration: str | None
     directions: int
     tilts: list[str] | None
+    mountings: list[str]
     service: _Path | None
 
 class _Campaign(TypedDict):

@@ -1129,6 +1129,9 @@ class DesignedRunResult(TypedDict):
     shares: list[MotionResult]
     """The shares of the motions in the whole schedule, before they were rounded."""
 
+    spin: str
+    """The axis of the IMU along the spin axis, as `[axis] spin`."""
+
     tilt_deg: float
     """The angle of the axis from the vertical [deg]."""
 

@@ -3,6 +3,8 @@
 use nalgebra::DVector;
 use rins_design::{Effect, LinearFunction, Objective, Pair, Service, information};
 use rins_estimation::Unknown;
+use rins_frames::SignedAxes;
+use rins_imu::ImuSpec;
 use rins_io::MissionFile;
 use rins_io::quantity::kinds;
 use rins_motion::{Segment, Station};
@@ -81,6 +83,8 @@ pub(super) struct InService {
     pub(super) words: String,
     pub(super) station: Station,
     pub(super) nav_from_table: rins_frames::Dcm<rins_frames::Nav, rins_frames::Table>,
+    /// The axes of the run, whose z is the spin axis, relative to the sensors' own.
+    pub(super) axes: SignedAxes,
     pub(super) cycle: Vec<Segment>,
 }
 
@@ -92,6 +96,7 @@ impl InService {
             words: format!("{} of {}", scheme.name, rins_io::shown(&file.path)),
             station: file.station,
             nav_from_table: file.nav_from_table,
+            axes: SignedAxes::IDENTITY,
             cycle: scheme.cycle.clone(),
         }
     }
@@ -100,22 +105,25 @@ impl InService {
     fn position(
         &self,
         model: &Model,
-        free: &[&FreeParameter],
+        imu: &ImuSpec,
         time: f64,
     ) -> anyhow::Result<Vec<LinearFunction>> {
+        let model = model.carried(&self.axes);
+        let mut free = model.free_along(&self.axes, imu);
+        free.retain(|(free, _)| free.owner != Owner::Placement);
         let places: Vec<(usize, usize)> =
-            free.iter().map(|free| (free.term, free.parameter)).collect();
+            free.iter().map(|(free, _)| (free.term, free.parameter)).collect();
         let service = Service {
             surroundings: Surroundings::new(self.station, self.nav_from_table),
             cycle: &self.cycle,
-            model,
+            model: &model,
             parameters: &places,
             noise: [0.0; 2],
         };
         let position = service.position_after_alignment(time)?;
         let row = |row: usize| -> LinearFunction {
-            let of = |(column, free): (usize, &&FreeParameter)| {
-                (free.id.clone(), position[(row, column)])
+            let of = |(column, (free, sign)): (usize, &(FreeParameter, f64))| {
+                (free.id.clone(), sign * position[(row, column)])
             };
             free.iter().enumerate().map(of).collect()
         };
@@ -191,7 +199,9 @@ pub(super) fn objective<'e>(
             };
             Objective::Variance(ids().iter().map(function).collect())
         }
-        DesignGoal::Position(time) => Objective::Variance(service.position(model, &of_imu, *time)?),
+        DesignGoal::Position(time) => {
+            Objective::Variance(service.position(model, &schedule.runs[0].imu, *time)?)
+        }
         DesignGoal::Determinant(_) => Objective::Determinant(ids()),
         DesignGoal::MeanSquare(_) => {
             let ids = ids();

@@ -10,12 +10,13 @@ mod words;
 
 use std::path::PathBuf;
 
-use rins_design::{Criterion, Limits, Optimization};
+use rins_design::{Criterion, Effect, Limits, Optimization};
+use rins_frames::SignedAxes;
 use rins_frames::units::DEG;
-use rins_io::{InputFile, MissionFile};
+use rins_io::{Axes, InputFile, MissionFile};
 use rins_motion::Segment;
 use rins_report::number::figure;
-use rins_terms::Model;
+use rins_terms::{Model, Owner};
 
 pub use self::goal::DesignGoal;
 use self::goal::{InService, model_for, objective};
@@ -27,7 +28,7 @@ use self::study::{Compared, DesignStudy};
 use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::observe::chosen;
-use crate::observe::schedule::{ScenarioBase, Schedule};
+use crate::observe::schedule::{Changes, ScenarioBase, Schedule};
 use crate::progress::Progress;
 
 /// The name of the power-on of the runs, if the scenario has none.
@@ -51,6 +52,8 @@ pub struct DesignOptions {
     pub directions: usize,
     /// The tilts that the axis can have \[rad\]; by default any from 0 to 90 deg.
     pub tilts: Option<Vec<f64>>,
+    /// The axes of the IMU that can be mounted along the spin axis; by default that of the first scenario.
+    pub mountings: Vec<Axes>,
     /// A mission file: the site, axis and first scheme of a system in service, for a position error. By default it is at the
     /// scenario's site and attitude and turns back and forth at the fastest rate.
     pub service: Option<PathBuf>,
@@ -69,6 +72,7 @@ impl DesignOptions {
             max_acceleration: None,
             directions: 3,
             tilts: None,
+            mountings: Vec::new(),
             service: None,
             progress: Progress::default(),
         }
@@ -109,6 +113,7 @@ fn designed(scenarios: &[PathBuf], options: &DesignOptions) -> anyhow::Result<De
     let (model, effects) = model_for(goal, name)?;
     let schedule = Schedule::of(scenarios)?;
     let limits = limits(options, &schedule)?;
+    let mountings = mountings(options, &schedule, &effects)?;
     let mut inputs: Vec<InputFile> =
         InputFile::of_each(schedule.paths.iter().map(PathBuf::as_path))?;
     let service = service(options, &schedule, &limits, &mut inputs)?;
@@ -121,12 +126,13 @@ fn designed(scenarios: &[PathBuf], options: &DesignOptions) -> anyhow::Result<De
         objective: &objective,
         limits: &limits,
         tilts: options.tilts.as_deref(),
+        mountings: &mountings,
     };
     let optimal = optimization
         .run(|candidates| stage.at(&format!("optimizing the schedule, {candidates} candidates")))?;
     stage.at("comparing schedules");
     let mut compared = vec![Compared::given(&schedule, &model, &objective)?];
-    for usual in rins_design::usual_schedules(&schedule.runs[0], &limits) {
+    for usual in rins_design::usual_schedules(&schedule.runs[0], &limits, &mountings) {
         compared.push(Compared::of(usual.words.clone(), &usual.runs, &model, &objective)?);
     }
     drop(stage);
@@ -191,6 +197,31 @@ fn limits(options: &DesignOptions, schedule: &Schedule) -> anyhow::Result<Limits
     Ok(Limits { rate, acceleration, duration, directions: options.directions })
 }
 
+/// The axes of the mountings, each once.
+fn mountings(
+    options: &DesignOptions,
+    schedule: &Schedule,
+    effects: &[Effect],
+) -> anyhow::Result<Vec<SignedAxes>> {
+    let mut mountings: Vec<SignedAxes> = Vec::new();
+    for axes in options.mountings.iter().map(|axes| SignedAxes::from(*axes)) {
+        if !mountings.contains(&axes) {
+            mountings.push(axes);
+        }
+    }
+    if mountings.is_empty() {
+        mountings.push(schedule.runs[0].axes());
+    }
+    let of_run = effects.iter().find(|effect| effect.term.owner == Owner::Run);
+    if let (Some(effect), true) = (of_run, mountings.len() > 1) {
+        anyhow::bail!(
+            "{} belongs to one mounting of the IMU: a schedule of several mountings cannot be optimized for it",
+            effect.name
+        );
+    }
+    Ok(mountings)
+}
+
 /// The shortest duration of a schedule without its ramps \[s\].
 const SHORTEST: f64 = 10.0;
 
@@ -213,6 +244,7 @@ fn service(
         words: format!("reciprocating at {} deg/s", figure(limits.rate / DEG, 3)),
         station: run.station(),
         nav_from_table: run.nav_from_table(),
+        axes: run.axes(),
         cycle: vec![turn(limits.rate), turn(-limits.rate)],
     })
 }
@@ -224,7 +256,8 @@ fn files(
     schedule: &Schedule,
     limits: &Limits,
 ) -> anyhow::Result<Vec<String>> {
-    let given = schedule.runs[0].nav_from_table();
+    let first = &schedule.runs[0];
+    let given = first.nav_from_table();
     let count = optimal.runs.len();
     let series = (count > 1).then_some(SERIES);
     let runs = optimal.runs.iter().enumerate();
@@ -232,8 +265,15 @@ fn files(
         let attitude = run.planned.nav_from_table();
         let is_given = (attitude.matrix() - given.matrix()).abs().max() < 1e-9;
         let title = format!("Optimal schedule: run {} of {count}.", place + 1);
-        let motion = (&run.segments[..], limits.acceleration);
-        base.with_motion(&title, motion, (!is_given).then_some(attitude), series)
+        let axes = run.planned.axes();
+        base.with(&Changes {
+            title,
+            segments: &run.segments,
+            acceleration: limits.acceleration,
+            attitude: (!is_given).then_some(attitude),
+            spin: (axes != first.axes()).then(|| Axes::from(axes).spin_name()),
+            series,
+        })
     })
     .collect()
 }

@@ -43,14 +43,15 @@ pub(super) fn report(study: &DesignStudy) -> Report {
     }
 }
 
+fn run_name(place: usize, run: &DesignedRunResult) -> String {
+    format!("run {}, about {}, tilt {:.1} deg", place + 1, run.spin, run.tilt_deg)
+}
+
 /// The rate over time.
 fn rates(runs: &[DesignedRunResult]) -> Plot {
     let series = runs.iter().enumerate().map(|(place, run)| {
-        let mut series = Series {
-            name: format!("run {}, tilt {:.1} deg", place + 1, run.tilt_deg),
-            style: Style::Steps,
-            ..Series::default()
-        };
+        let mut series =
+            Series { name: run_name(place, run), style: Style::Steps, ..Series::default() };
         for segment in &run.profile {
             series.x.push(segment.start_s);
             series.y.push(segment.rate_deg_s);
@@ -77,7 +78,7 @@ fn shares(runs: &[DesignedRunResult]) -> Plot {
         let mut all: Vec<&MotionResult> = run.shares.iter().collect();
         all.sort_by(|a, b| a.rate_deg_s.total_cmp(&b.rate_deg_s));
         Series {
-            name: format!("run {}, tilt {:.1} deg", place + 1, run.tilt_deg),
+            name: run_name(place, run),
             x: all.iter().map(|one| one.rate_deg_s).collect(),
             y: all.iter().map(|one| 100.0 * one.share).collect(),
             style: Style::Points,

@@ -3,6 +3,7 @@
 use rins_design::{Motion, OptimalRun};
 use rins_estimation::Observable;
 use rins_frames::units::{DEG, PPM};
+use rins_io::Axes;
 use rins_terms::catalogue;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -77,6 +78,8 @@ pub struct ScaleBoundResult {
 /// A run of the schedule.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DesignedRunResult {
+    /// The axis of the IMU along the spin axis, as `[axis] spin`.
+    pub spin: String,
     /// The attitude of the axis frame \[deg\].
     pub attitude_deg: EulerDegrees,
     /// The angle of the axis from the vertical \[deg\].
@@ -199,6 +202,7 @@ impl DesignedRunResult {
             }
         });
         Self {
+            spin: Axes::from(run.planned.axes()).spin_name(),
             profile: profile.collect(),
             shares: shares.collect(),
             attitude_deg: attitude.euler_angles().into(),

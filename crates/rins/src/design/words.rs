@@ -102,6 +102,7 @@ fn scale_sentence(study: &DesignStudy) -> Option<String> {
 pub(super) fn schedule_rows(study: &DesignStudy) -> Vec<Vec<String>> {
     let head = [
         "run",
+        "spin axis",
         "tilt [deg]",
         "azimuth [deg]",
         "start [s]",
@@ -114,10 +115,11 @@ pub(super) fn schedule_rows(study: &DesignStudy) -> Vec<Vec<String>> {
     for (place, run) in study.optimal.runs.iter().enumerate() {
         let result = DesignedRunResult::of(run);
         for (part, segment) in result.profile.iter().enumerate() {
-            let mut row = vec![String::new(); 3];
+            let mut row = vec![String::new(); 4];
             if part == 0 {
                 row = vec![
                     (place + 1).to_string(),
+                    result.spin.clone(),
                     format!("{:.1}", result.tilt_deg),
                     format!("{:.1}", result.attitude_deg.yaw),
                 ];

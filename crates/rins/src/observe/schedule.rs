@@ -77,7 +77,8 @@ fn planned(path: &Path) -> anyhow::Result<(Planned, Option<String>)> {
     let acceleration = rig.table.as_ref().and_then(|table| table.acceleration);
     let series = rig.run.series.clone();
     let accuracy = (noise, wobble, acceleration);
-    Ok((Planned::new(shown(path), file.scenario.clone(), imu, accuracy), series))
+    let planned = Planned::new(shown(path), file.scenario.clone(), imu, accuracy);
+    Ok((planned.with_axes(file.spin.into()), series))
 }
 
 /// The first ten samples of a scenario, enough to see what its log would hold.
@@ -98,9 +99,30 @@ pub(super) fn scenarios(
     runs.map(|(place, run)| {
         let attitude = (place > 0).then(|| run.nav_from_table());
         let title = format!("{}: run {} of {}.", candidate.words, place + 1, candidate.runs.len());
-        base.with_motion(&title, (&candidate.segments, limits.acceleration), attitude, None)
+        base.with(&Changes {
+            title,
+            segments: &candidate.segments,
+            acceleration: limits.acceleration,
+            attitude,
+            spin: None,
+            series: None,
+        })
     })
     .collect()
+}
+
+/// What is different in a scenario that is made from another one.
+pub(crate) struct Changes<'a> {
+    /// The first line.
+    pub(crate) title: String,
+    pub(crate) segments: &'a [Segment],
+    /// The acceleration of the table \[rad/s²\].
+    pub(crate) acceleration: f64,
+    pub(crate) attitude: Option<Dcm<Nav, rins_frames::Table>>,
+    /// The axis of the IMU along the spin axis.
+    pub(crate) spin: Option<String>,
+    /// The series of runs in one power-on.
+    pub(crate) series: Option<&'a str>,
 }
 
 /// A scenario file from which others are made.
@@ -112,15 +134,9 @@ impl ScenarioBase {
         Ok(Self(text.parse().with_context(|| shown(path))?))
     }
 
-    /// The same scenario with these segments and this acceleration \[rad/s²\], with another attitude of the axis, and as part of a series
-    /// of runs in one power-on; with a title.
-    pub(crate) fn with_motion(
-        &self,
-        title: &str,
-        (segments, acceleration): (&[Segment], f64),
-        attitude: Option<Dcm<Nav, rins_frames::Table>>,
-        series: Option<&str>,
-    ) -> anyhow::Result<String> {
+    /// The same scenario with another motion.
+    pub(crate) fn with(&self, changes: &Changes<'_>) -> anyhow::Result<String> {
+        let Changes { title, segments, acceleration, attitude, spin, series } = changes;
         let mut scenario = self.0.clone();
         let table = section(&mut scenario, "table");
         table.insert("profile".into(), Value::Array(profile(segments)));
@@ -135,8 +151,12 @@ impl ScenarioBase {
                 attitude.insert(name.into(), Value::String(format!("{:.6} deg", angle / DEG)));
             }
         }
+        if let Some(spin) = spin {
+            section(&mut scenario, "axis").insert("spin".into(), Value::String(spin.clone()));
+        }
         if let Some(series) = series {
-            section(&mut scenario, "run").insert("series".into(), Value::String(series.into()));
+            let series = Value::String((*series).into());
+            section(&mut scenario, "run").insert("series".into(), series);
         }
         let written = toml::to_string(&scenario)?;
         Ok(format!("# {title}\n{written}"))

@@ -153,10 +153,10 @@ const SCENARIOS: &[Row] = &[
         &["[log] path: \"../../run.csv\" is not allowed, expected the name of a csv file"],
     ),
     (
-        "a spin axis",
-        SIMULATE,
+        "a spin axis of a campaign",
+        "monte-carlo scenario.toml --runs 2 -o runs.parquet",
         Replace(FILE, "[attitude]", "[axis]\nspin = \"x\"\n\n[attitude]"),
-        &["[axis] spin: a scenario spins about z; leave this out"],
+        &["[axis] spin: a campaign simulates runs about z; leave this out"],
     ),
     (
         "no attitude",
