@@ -54,6 +54,8 @@ const STEPS: &[Row] = &[
     ("programs", &[], "cargo build --quiet --workspace --bins --examples"),
     // A new environment: pip builds and installs the package, which is then tested.
     ("python", &[], "bash crates/rins-python/ci.sh"),
+    // With the profile of the tests: an optimized build of everything would take twice as long.
+    ("dist", &[], "cargo xtask dist --profile dev"),
 ];
 
 /// Programs that the step `programs` has built; running them by cargo would build more.

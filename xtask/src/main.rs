@@ -12,6 +12,7 @@ mod blind;
 mod certificates;
 mod ci;
 mod coverage;
+mod dist;
 mod doc;
 mod false_alarms;
 mod fuzz;
@@ -44,6 +45,8 @@ enum Command {
     Ci(ci::Options),
     /// Simulate runs with random truth and check the coverage of the estimator's intervals
     Coverage(coverage::Options),
+    /// Build the files of a release into target/dist, and try them in empty environments
+    Dist(dist::Options),
     /// Build the book into target/book and check its equations and links
     Doc,
     /// Diagnose simulated runs without an unmodeled error, and count the false alarms
@@ -70,6 +73,7 @@ fn main() -> ExitCode {
         Command::Certificates(options) => certificates::run(&root, &options),
         Command::Ci(options) => ci::run(&root, &options),
         Command::Coverage(options) => coverage::run(&root, &options),
+        Command::Dist(options) => dist::run(&root, &options),
         Command::Doc => doc::run(&root),
         Command::FalseAlarms(options) => false_alarms::run(&root, &options),
         Command::Fuzz(options) => fuzz::run(&root, &options),

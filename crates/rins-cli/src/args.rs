@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use rins::ModelChoice;
 use rins_io::{LogFile, Overwrite};
 
@@ -148,6 +149,27 @@ pub(crate) enum Command {
     /// With --runs, missions with drawn errors are navigated by strapdown as well. With --want, the result states which standard deviations of
     /// the sensor errors hold a wanted position error.
     Mission(Mission),
+    /// Print a script that completes commands, options and file names in a shell
+    ///
+    /// For bash: rins completions bash > ~/.local/share/bash-completion/completions/rins
+    Completions(Completions),
+    /// Write a man page of each command
+    #[command(hide = true)]
+    Man(ManPages),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    pub(crate) shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ManPages {
+    /// Output folder
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -313,7 +335,8 @@ impl Command {
             | Self::Convert(_)
             | Self::MonteCarlo(_)
             | Self::Merge(_)
-            | Self::Apply(_) => None,
+            | Self::Apply(_)
+            | Self::Completions(_) => None,
             Self::Check(input) | Self::Allan(input) | Self::Align(input) => input.output.as_deref(),
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
             Self::Observe(observe) => observe.output.as_deref(),
@@ -323,6 +346,7 @@ impl Command {
             Self::Compare(compare) => compare.output.as_deref(),
             Self::History(history) => history.output.as_deref(),
             Self::Mission(mission) => mission.output.as_deref(),
+            Self::Man(pages) => Some(&pages.output),
         }
     }
 }

@@ -17,6 +17,7 @@ mod live;
 mod progress;
 mod run;
 mod serve;
+mod shell;
 
 /// Runs a command line, whose first word is the name of the program, and returns the exit code: 0 done, 1 the data or the
 /// files are at fault, 2 usage.

@@ -16,6 +16,7 @@ use crate::deliver::{deliver, print_outcome};
 use crate::interrupt;
 use crate::live::run_live;
 use crate::progress::{drawn, during};
+use crate::shell::{print_completions, write_man_pages};
 
 /// Does what the command line says.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
@@ -62,6 +63,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
             };
             deliver(arguments, &rins::history(&history.runs, &options)?, "")
         }
+        Command::Completions(completions) => print_completions(arguments, completions.shell),
+        Command::Man(pages) => write_man_pages(arguments, &pages.output),
         Command::Mission(mission) => {
             let options = MissionOptions {
                 calibration: mission.calibration.clone(),

@@ -19,9 +19,6 @@ use crate::trouble::Trouble;
 /// The amplitudes that are added, in sigmas; the smallest cannot be detected.
 const STRENGTHS: [f64; 4] = [0.1, 3.0, 8.0, 20.0];
 
-/// The change of an amplitude that is a finding, in its sigmas.
-const SIGNIFICANT: f64 = 2.0;
-
 /// Two events are the same if they are closer than this part of the log.
 const SAME_TIME: f64 = 0.1;
 
@@ -104,6 +101,11 @@ pub struct InjectionTrial {
 }
 
 impl InjectionTrial {
+    /// Whether the error is large enough to be detected in the noise of the log.
+    pub(crate) fn is_detectable(&self) -> bool {
+        self.injection.strength > 1.0
+    }
+
     /// The channel's name.
     pub(crate) fn channel(&self) -> &'static str {
         ["gyro x", "gyro y", "gyro z", "accelerometer x", "accelerometer y", "accelerometer z"]
@@ -159,10 +161,9 @@ pub(crate) fn injection_trials(
             (value - base.map_or(0.0, |base| base.0) - injection.amplitude) / sigma
         });
         let had = before.causes.iter().any(matches);
-        let changed = base.zip(found).is_some_and(|(base, found)| {
-            let change = found.0 - base.0;
-            change / injection.amplitude > 0.5 && change.abs() > SIGNIFICANT * found.1
-        });
+        let changed = base
+            .zip(found)
+            .is_some_and(|(base, found)| (found.0 - base.0) / injection.amplitude > 0.5);
         let is_found = answer.causes.iter().any(matches) && (!had || changed);
         let is_false = |cause: &&Named| !cause.may_be(&injection.id) && is_new(cause);
         all.push(InjectionTrial {

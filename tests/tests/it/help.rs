@@ -10,7 +10,7 @@ use rins_testing::{Fault, assert_rows, is, says};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 20] = [
     "",
     "demo",
     "init",
@@ -30,6 +30,7 @@ const COMMANDS: [&str; 19] = [
     "compare",
     "history",
     "mission",
+    "completions",
 ];
 
 /// The assumed width of a terminal.
@@ -128,6 +129,32 @@ fn help_that_says_too_little_is_found_out() {
         let found = help_fault("calibrate", text).unwrap_err();
         assert!(found.contains(fault), "{found}");
     }
+}
+
+/// The scripts of the shells know the commands and their options; there is a man page of each command.
+#[test]
+fn shells_know_the_commands() {
+    let folder = tempfile::tempdir().unwrap();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let finished = rins_in(folder.path(), &format!("completions {shell}"));
+        assert_eq!(finished.code, Some(0), "{}", finished.err);
+        for word in ["diagnose", "monte-carlo", "held-out"] {
+            assert!(finished.out.contains(word), "{shell}: {word}");
+        }
+        let told = crate::support::result_in(folder.path(), &format!("completions {shell}"));
+        assert_eq!(told["script"], finished.out);
+    }
+    let refused = rins_in(folder.path(), "completions tcsh");
+    assert_eq!(refused.code, Some(2));
+    let finished = rins_in(folder.path(), "man -o man1");
+    assert_eq!(finished.code, Some(0), "{}", finished.err);
+    for command in COMMANDS {
+        let name = if command.is_empty() { "rins".into() } else { format!("rins-{command}") };
+        let page = fs::read_to_string(folder.path().join(format!("man1/{name}.1"))).unwrap();
+        assert!(page.contains(&format!(".TH {name} 1")), "{name}");
+        assert!(page.contains("\\-\\-json"), "{name}");
+    }
+    assert_eq!(rins_in(folder.path(), "man -o man1").code, Some(1));
 }
 
 #[test]

@@ -38,6 +38,7 @@ mod support;
 mod synthetic;
 mod temperature;
 mod turned_over;
+mod tutorials;
 mod unobservable;
 mod unread;
 mod verdicts;

@@ -26,8 +26,14 @@ impl From<Output> for Finished {
 
 /// Runs `rins` in `folder` with these arguments, separated by blanks.
 pub(crate) fn rins_in(folder: &Path, arguments: &str) -> Finished {
+    let words: Vec<String> = arguments.split_whitespace().map(str::to_owned).collect();
+    rins_words(folder, &words)
+}
+
+/// The same with arguments that may contain blanks.
+pub(crate) fn rins_words(folder: &Path, words: &[String]) -> Finished {
     let mut command = rins();
-    command.args(arguments.split_whitespace()).current_dir(folder);
+    command.args(words).current_dir(folder);
     command.output().expect("rins starts").into()
 }
 

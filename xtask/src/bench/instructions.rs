@@ -39,6 +39,7 @@ const ALL: &[Counted] = &[
     counted(["rins-calibration", "step"], ["filter_step_24", "filter_step_24/one"], 200.0),
     counted(["rins-calibration", "step"], ["filter_step_40", "filter_step_40/one"], 200.0),
     counted(["rins-calibration", "step"], ["filter_step_48", "filter_step_48/one"], 200.0),
+    counted(["rins-estimation", "online"], ["online_sample", "online_sample/full"], 1000.0),
     counted(["rins-motion", "strapdown"], ["strapdown_step", "strapdown_step/one"], 1000.0),
     counted(["rins-motion", "strapdown"], ["strapdown_lanes", "strapdown_step/lanes"], 1000.0),
 ];

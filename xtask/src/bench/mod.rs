@@ -30,8 +30,12 @@ pub(crate) struct Options {
 type Bench = (&'static str, &'static str);
 
 /// The benches that are timed, each with its alternative implementation.
-const BENCHES: &[Bench] =
-    &[("rins-calibration", "step"), ("rins-motion", "strapdown"), ("rins-campaign", "campaign")];
+const BENCHES: &[Bench] = &[
+    ("rins-calibration", "step"),
+    ("rins-motion", "strapdown"),
+    ("rins-estimation", "online"),
+    ("rins-campaign", "campaign"),
+];
 
 /// A row of the table: its name, the timed bench, and the alternative.
 type Row = (&'static str, &'static str, Option<&'static str>);
@@ -48,6 +52,7 @@ const ROWS: &[Row] = &[
     ("filter_step_48_lanes", "filter_step_48/lanes", Some("filter_step_48/dense")),
     ("strapdown_step", "strapdown_step/one", Some("strapdown_step/bare")),
     ("strapdown_step_lanes", "strapdown_step/lanes", Some("strapdown_step/bare")),
+    ("online_sample", "online_sample/full", None),
     (CAMPAIGN, "campaign_30/lanes", Some("campaign_30/dense")),
 ];
 
