@@ -2,7 +2,6 @@
 
 mod covariance;
 mod measured;
-mod provenance;
 mod range;
 
 use std::fmt::Write as _;
@@ -10,7 +9,6 @@ use std::path::{Path, PathBuf};
 
 pub use covariance::Covariance;
 pub use measured::Measured;
-pub use provenance::Provenance;
 pub use range::CalibratedRange;
 use rins_frames::SignedAxes;
 use rins_imu::{Compensation, ImuError, TriadError};
@@ -22,6 +20,7 @@ use crate::error::{IoError, KeyError, KeyProblem};
 use crate::model::REFERENCE;
 use crate::output::{Overwrite, write_file};
 use crate::parameter::{self, LeftOut, Parameter, parameters};
+use crate::provenance::{self, Provenance};
 use crate::rig::Axes;
 use crate::section::Section;
 use crate::term::{self, Use};

@@ -28,6 +28,7 @@ mod mission;
 mod model;
 mod output;
 mod parameter;
+mod provenance;
 pub mod quantity;
 mod rig;
 mod run;
@@ -41,7 +42,7 @@ mod term;
 mod unfinished;
 mod write;
 
-pub use calibration::{CalibratedRange, Calibration, Covariance, Measured, Provenance};
+pub use calibration::{CalibratedRange, Calibration, Covariance, Measured};
 pub use campaign::{
     CampaignModel, GridCell, Heading, Identity, Journal, JournalRun, ModelRecord, PartRuns, Record,
     Row, RunRows, ScenarioGrid, write_part,
@@ -63,6 +64,7 @@ pub use output::{
     write_files, write_folder,
 };
 pub use parameter::{Parameter, parameters};
+pub use provenance::Provenance;
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{
     Accuracy, AngleColumn, Axes, Coarse, ColumnSpec, Decimal, Gaps, InitialAttitude, Laboratory,

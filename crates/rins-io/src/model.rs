@@ -10,6 +10,7 @@ use rins_terms::{Model, TermInstance};
 use crate::document::Document;
 use crate::error::IoError;
 use crate::output::{Overwrite, write_file};
+use crate::provenance::{self, Provenance};
 use crate::rig::Axes;
 use crate::section::Section;
 use crate::term::{self, Use};
@@ -54,6 +55,8 @@ pub struct ModelFile {
     /// The axes of the run, selected from the sensors' own: the names and values in the file are along these, and the bases refer
     /// to the spin axis.
     pub axes: Axes,
+    /// The program and the files that its values and sigmas come from, if they are estimates.
+    pub provenance: Provenance,
 }
 
 type Preset = fn() -> Model;
@@ -65,13 +68,20 @@ const BASES: [(&str, Preset); 3] =
 impl ModelFile {
     /// A model without a file, for a run about z.
     pub fn of(model: Model) -> Self {
-        Self { path: PathBuf::new(), model, axes: Axes::IDENTITY }
+        let (path, provenance) = (PathBuf::new(), Provenance::default());
+        Self { path, model, axes: Axes::IDENTITY, provenance }
     }
 
     /// The same model for a run with these axes.
     #[must_use]
     pub fn with_axes(self, axes: Axes) -> Self {
         Self { axes, ..self }
+    }
+
+    /// The same model, estimated by this program from these files.
+    #[must_use]
+    pub fn with_provenance(self, provenance: Provenance) -> Self {
+        Self { provenance, ..self }
     }
 
     /// Reads the model file at `path` for a run about z.
@@ -100,7 +110,7 @@ impl ModelFile {
     }
 
     fn from_document(document: &Document, axes: &Axes) -> Result<Self, IoError> {
-        let root = Section::root(document, &["schema", "base", REFERENCE, "term"])?;
+        let root = Section::root(document, &["schema", "base", REFERENCE, "term", "provenance"])?;
         match root.count("schema", "1")? {
             Some(SCHEMA) => {}
             Some(_) => return Err(root.not_allowed("schema", "1")),
@@ -127,7 +137,8 @@ impl ModelFile {
                 }
             }
         }
-        Ok(Self { path: document.path.clone(), model, axes: *axes })
+        let provenance = provenance::read(&root)?;
+        Ok(Self { path: document.path.clone(), model, axes: *axes, provenance })
     }
 
     /// The text of the model file.
@@ -150,7 +161,7 @@ impl ModelFile {
                 text.push_str(&term::written(chosen, Use::Model, &SignedAxes::from(self.axes)));
             }
         }
-        text
+        text + &provenance::written(&self.provenance)
     }
 
     /// Writes the model file atomically.

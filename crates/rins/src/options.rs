@@ -80,21 +80,25 @@ pub(crate) struct NamedModel {
     pub(crate) model: Model,
     /// Its file, if it has one.
     pub(crate) file: Option<InputFile>,
+    /// The digests of the files that its values and sigmas are estimates from.
+    pub(crate) digests: Vec<String>,
 }
 
 impl NamedModel {
+    fn preset(name: &str, model: Model) -> Self {
+        Self { name: name.into(), model, file: None, digests: Vec::new() }
+    }
+
     /// The chosen model for a run with these axes; a model file is read.
     pub(crate) fn of(choice: &ModelChoice, axes: &Axes) -> anyhow::Result<Self> {
         Ok(match choice {
-            ModelChoice::Paper12 => {
-                Self { name: "paper12".into(), model: Model::paper12(), file: None }
+            ModelChoice::Paper12 => Self::preset("paper12", Model::paper12()),
+            ModelChoice::Full => Self::preset(FULL, Model::full()),
+            ModelChoice::File(path) => {
+                let ModelFile { model, provenance, .. } = ModelFile::read_along(path, axes)?;
+                let digests = provenance.inputs.into_iter().map(|input| input.sha256).collect();
+                Self { name: shown(path), model, file: Some(InputFile::of(path)?), digests }
             }
-            ModelChoice::Full => Self { name: FULL.into(), model: Model::full(), file: None },
-            ModelChoice::File(path) => Self {
-                name: shown(path),
-                model: ModelFile::read_along(path, axes)?.model,
-                file: Some(InputFile::of(path)?),
-            },
         })
     }
 }

@@ -76,3 +76,24 @@ fn estimates_beyond_the_data_sheet_are_told_first() {
         assert_eq!(first.contains("was stated beforehand"), departs, "{said} {first}");
     }
 }
+
+/// The model file of a calibration has its sigmas as priors: for the same log they would count twice, which is said; for another run they are
+/// what was known before.
+#[test]
+fn priors_from_the_same_log_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = rins_tests::workspace().join("scenarios/schedules/ii-reversal.toml");
+    let done = |arguments: &str| {
+        let finished = rins_in(folder.path(), arguments);
+        assert_eq!(finished.code, Some(0), "{arguments}: {}", finished.err);
+        finished.out
+    };
+    for seed in 1..=2 {
+        done(&format!("simulate {} -o run{seed} --seed {seed}", scenario.display()));
+    }
+    done("calibrate run1/rig.toml --model full --noise given -o cal");
+    let again = done("calibrate run1/rig.toml --model cal/model.toml --noise given");
+    assert!(again.contains("these data count twice"), "{again}");
+    let other = done("calibrate run2/rig.toml --model cal/model.toml --noise given");
+    assert!(!other.contains("count twice"), "{other}");
+}

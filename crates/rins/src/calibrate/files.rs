@@ -17,7 +17,9 @@ impl Certificate {
         let several = self.runs.len() > 1;
         let mut extended = model(self);
         extended.terms.extend(self.besides.iter().cloned());
-        let file = ModelFile::of(extended).with_axes(self.fit.run_axes[0].into());
+        let file = ModelFile::of(extended)
+            .with_axes(self.fit.run_axes[0].into())
+            .with_provenance(self.basis().provenance());
         let mut delivered = vec![("model.toml".into(), file.to_toml().into_bytes())];
         for run in 0..self.runs.len() {
             let name = match (several, run) {

@@ -6,7 +6,7 @@ use rins_estimation::{NoiseKnowledge, NoiseParameters, Reference, Run};
 use rins_frames::EARTH_RATE;
 use rins_frames::units::DEG_PER_HOUR;
 use rins_imu::ImuSpec;
-use rins_io::InputFile;
+use rins_io::{InputFile, shown};
 use rins_report::number::figure;
 use rins_terms::{Model, Role, TermInstance, catalogue};
 
@@ -87,6 +87,7 @@ impl EstimationProblem {
                 .flat_map(|run| run.remarks.iter().map(|told| format!("{}: {told}", run.name)))
                 .collect(),
         };
+        remarks.extend(counted_twice(&runs, &named));
         remarks.extend(series_in_words(&runs));
         let spins: BTreeSet<String> =
             runs.iter().map(|run| run.loaded.rig.spin.spin_name()).collect();
@@ -177,6 +178,24 @@ impl EstimationProblem {
     pub(crate) fn names(&self) -> String {
         self.runs.iter().map(|run| run.name.as_str()).collect::<Vec<_>>().join(", ")
     }
+}
+
+/// Which logs the priors of the model come from already.
+fn counted_twice(runs: &[Prepared], named: &NamedModel) -> Option<String> {
+    let is_known = |run: &&Prepared| {
+        let log = shown(&run.loaded.rig.log.path);
+        let inputs = run.basis.provenance.inputs.iter().filter(|input| input.path == log);
+        inputs.into_iter().any(|input| named.digests.contains(&input.sha256))
+    };
+    let known: Vec<&str> = runs.iter().filter(is_known).map(|run| run.name.as_str()).collect();
+    (!known.is_empty()).then(|| {
+        format!(
+            "The values and sigmas of {} are estimates from {} already: these data count twice, and the sigmas are too small. Use the \
+             calibration file that was written with the model, or another run.",
+            named.name,
+            known.join(", ")
+        )
+    })
 }
 
 /// Which logs have the same turn-on biases, as the rig files state it.

@@ -65,7 +65,9 @@ impl Outcome for PaperCalibration {
     }
 
     fn files(&self) -> Vec<(String, Vec<u8>)> {
-        let model = ModelFile::of(self.model.clone()).with_axes(self.log.loaded.rig.spin);
+        let model = ModelFile::of(self.model.clone())
+            .with_axes(self.log.loaded.rig.spin)
+            .with_provenance(self.basis.provenance());
         vec![
             ("calibration.toml".into(), self.file().to_toml().into_bytes()),
             ("model.toml".into(), model.to_toml().into_bytes()),

@@ -1,4 +1,4 @@
-//! The program and the inputs of a calibration: `[provenance]`.
+//! The program and the inputs of a calibration or a model: `[provenance]`.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use crate::rig::named;
 use crate::section::Section;
 use crate::shown::shown;
 
-/// The program and the inputs of a calibration, as far as they are known.
+/// The program and the inputs of a calibration or a model, as far as they are known.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Provenance {
     /// The version of rins.
@@ -22,7 +22,7 @@ pub struct Provenance {
 const DIGESTS: &str = "a list of SHA-256 digests of 64 hexadecimal digits";
 
 /// Reads `[provenance]`, which may be left out.
-pub(super) fn read(root: &Section<'_>) -> Result<Provenance, IoError> {
+pub(crate) fn read(root: &Section<'_>) -> Result<Provenance, IoError> {
     let Some(section) = root.section("provenance", &["version", "inputs", "sha256"])? else {
         return Ok(Provenance::default());
     };
@@ -43,7 +43,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Provenance, IoError> {
 }
 
 /// The section, as it is written; nothing if nothing is known.
-pub(super) fn written(provenance: &Provenance) -> String {
+pub(crate) fn written(provenance: &Provenance) -> String {
     let Provenance { version, inputs } = provenance;
     let mut text = String::new();
     if provenance == &Provenance::default() {
