@@ -1,5 +1,6 @@
 //! Output of simulated runs: the log, its rig file, and the truth.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -14,10 +15,11 @@ use serde_json::{Value, json};
 use crate::document::{Entry, Node};
 use crate::error::IoError;
 use crate::parameter::{Parameter, parameters};
+use crate::rig::Axes;
 use crate::scenario::{ScenarioFile, true_angles};
 use crate::term;
 use crate::write::rig_text::{column_keys, figures, inline, push_table};
-use crate::write::{along_own_axes, write_recording};
+use crate::write::{to_own_axes, write_recording};
 
 impl ScenarioFile {
     /// The truth of a simulated run as JSON: the axis frame's true attitude, the IMU's true errors and
@@ -82,7 +84,10 @@ impl ScenarioFile {
             let mut out = BufWriter::new(file);
             fill(&mut out).and_then(|()| out.flush()).map_err(IoError::file("write", &path))
         };
-        let own = along_own_axes(recording, &self.spin);
+        let mut own = Cow::Borrowed(recording);
+        if self.spin != Axes::IDENTITY {
+            to_own_axes(own.to_mut(), &self.spin);
+        }
         write(&self.log_name, &|out| write_recording(&own, out))?;
         write("rig.toml", &|out| out.write_all(self.rig_toml(recording).as_bytes()))?;
         write("truth.json", &|out| out.write_all(self.truth_json().as_bytes()))

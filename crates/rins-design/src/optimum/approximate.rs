@@ -39,7 +39,7 @@ const USEFUL: f64 = 0.9;
 const SLIGHT: f64 = 0.02;
 
 /// The share below which a candidate is not part of a design.
-const NEGLIGIBLE: f64 = 1e-9;
+pub(super) const NEGLIGIBLE: f64 = 1e-9;
 
 /// The number of evaluations for the length of an exchange.
 const HALVINGS: usize = 6;
@@ -119,9 +119,7 @@ impl ApproximateDesign {
             }
         }
     }
-}
 
-impl ApproximateDesign {
     /// The same candidates with other shares; the gap is to the same bound.
     pub(super) fn with_weights(
         &self,

@@ -210,7 +210,7 @@ impl Optimization<'_> {
         let mut runs = Vec::new();
         let mut left = limits.duration;
         for (&place, shares) in design.orientations.iter().zip(&design.shares) {
-            let whole: f64 = shares.iter().map(|(_, share)| share).sum();
+            let whole = pool::whole(shares);
             let is_last = runs.len() + 1 == design.orientations.len();
             let duration =
                 if is_last { left } else { (whole * limits.duration * 10.0).round() / 10.0 };

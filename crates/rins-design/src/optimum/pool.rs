@@ -8,7 +8,7 @@ use rins_estimation::Unknown;
 use rins_frames::{Dcm, Nav, SignedAxes, Table};
 use rins_terms::{FreeParameter, Model};
 
-use super::approximate::ApproximateDesign;
+use super::approximate::{ApproximateDesign, NEGLIGIBLE};
 use super::element::Element;
 use super::motion::{Motion, informations};
 use super::mounting::Mounting;
@@ -19,9 +19,6 @@ use crate::planned::Planned;
 
 /// The shortest run in one of several orientations \[s\].
 const SHORTEST_RUN: f64 = 20.0;
-
-/// The share of a motion that is not part of a design.
-const NEGLIGIBLE: f64 = 1e-9;
 
 /// Two orientations whose axes differ by less are one \[rad\].
 const SAME: f64 = 1e-6;
@@ -112,16 +109,15 @@ impl<'a> Pool<'a> {
         };
         let added = first..self.orientations.len();
         let sources: Vec<Option<usize>> = added.clone().map(known).collect();
-        let pieces: Vec<(Orientation, Motion)> = added
+        let pieces: Vec<(Dcm<Nav, Table>, &Model, Motion)> = added
             .zip(&sources)
             .filter(|(_, source)| source.is_none())
             .flat_map(|(place, _)| {
-                let orientation = self.orientations[place];
-                self.motions.iter().map(move |&motion| (orientation, motion))
+                let one = &self.orientations[place];
+                let (attitude, model) = (one.attitude, model(one));
+                self.motions.iter().map(move |&motion| (attitude, model, motion))
             })
             .collect();
-        let pieces: Vec<(Dcm<Nav, Table>, &Model, Motion)> =
-            pieces.iter().map(|(one, motion)| (one.attitude, model(one), *motion)).collect();
         let all = informations(self.given, self.limits, &pieces)?;
         let mut computed = all.chunks(self.motions.len()).map(|chunk| Arc::new(chunk.to_vec()));
         for source in sources {
@@ -241,16 +237,7 @@ impl<'a> Pool<'a> {
         }
         let mut orientations: Vec<usize> = Vec::new();
         let mut shares: Vec<Vec<(Motion, f64)>> = Vec::new();
-        let is_used = |group: usize| {
-            groups
-                .iter()
-                .zip(&design.weights)
-                .any(|(other, weight)| *other == group && *weight > 0.0)
-        };
         for (&(group, motion), &weight) in candidates.iter().zip(&design.weights) {
-            if !is_used(group) {
-                continue;
-            }
             if orientations.last() != Some(&group) {
                 orientations.push(group);
                 shares.push(Vec::new());
@@ -259,6 +246,8 @@ impl<'a> Pool<'a> {
                 last.push((self.motions[motion], weight));
             }
         }
+        let (orientations, shares) =
+            orientations.into_iter().zip(shares).filter(|(_, shares)| whole(shares) > 0.0).unzip();
         Ok(PoolDesign { orientations, shares, design })
     }
 }
@@ -295,6 +284,11 @@ fn extended(weights: &[f64], groups: &[usize], least: f64) -> Option<Vec<f64>> {
     (!short.is_empty()).then(changed)
 }
 
+/// The share of all motions together.
+pub(super) fn whole(shares: &[(Motion, f64)]) -> f64 {
+    shares.iter().map(|(_, share)| share).sum()
+}
+
 fn is_same(one: &Dcm<Nav, Table>, other: &Dcm<Nav, Table>) -> bool {
     (one.matrix() - other.matrix()).abs().max() < SAME
 }
@@ -320,8 +314,7 @@ impl PoolDesign {
 
     /// At most so many orientations with a share, those with the largest ones, in the order of the pool.
     pub(super) fn largest(&self, count: usize) -> Vec<usize> {
-        let share =
-            |place: &usize| -> f64 { self.shares[*place].iter().map(|(_, share)| share).sum() };
+        let share = |place: &usize| whole(&self.shares[*place]);
         let mut places: Vec<usize> = (0..self.orientations.len()).collect();
         places.sort_by(|a, b| share(b).total_cmp(&share(a)));
         places.truncate(count);
@@ -340,12 +333,11 @@ impl PoolDesign {
         });
         used.map(|(run, motion)| {
             let mut fewer = self.clone();
-            let whole: f64 = self.shares[run].iter().map(|(_, share)| share).sum();
             fewer.shares[run][motion].1 = 0.0;
-            let rest: f64 = fewer.shares[run].iter().map(|(_, share)| share).sum();
             // The run keeps its time.
+            let longer = whole(&self.shares[run]) / whole(&fewer.shares[run]);
             for (_, share) in &mut fewer.shares[run] {
-                *share *= whole / rest;
+                *share *= longer;
             }
             fewer
         })
@@ -353,8 +345,7 @@ impl PoolDesign {
 
     /// Whether runs of this total duration \[s\] are long enough in each orientation.
     pub(super) fn is_runnable(&self, duration: f64) -> bool {
-        let whole = |shares: &Vec<(Motion, f64)>| shares.iter().map(|(_, share)| share).sum();
-        let least = self.shares.iter().map(whole).fold(1.0, f64::min);
+        let least = self.shares.iter().map(|shares| whole(shares)).fold(1.0, f64::min);
         self.orientations.len() == 1 || least * duration > SHORTEST_RUN * (1.0 - 1e-9)
     }
 }

@@ -24,6 +24,7 @@ const MOST_AT_FIRST: usize = 2;
 const MOST_CHANGES: usize = 8;
 
 /// A few orientations of a pool, and the best design of motions in them.
+#[derive(Clone)]
 pub(super) struct Selection<'a> {
     objective: &'a Objective<'a>,
     limits: &'a Limits,
@@ -40,25 +41,18 @@ impl<'a> Selection<'a> {
         pool: &Pool<'_>,
     ) -> Result<Self, DesignError> {
         let (criterion, _) = objective.criterion(&[]);
-        let from = |orientations: &[usize]| {
-            let design = pool.design(objective, orientations, (limits.duration, ROUGH))?;
-            let mut selection = Self { objective, limits, criterion: criterion.clone(), design };
-            selection.improve(pool)?;
-            Ok::<Self, DesignError>(selection)
-        };
-        let first = from(&[0])?;
+        let close = (limits.duration, ROUGH);
+        let design = pool.design(objective, &[0], close)?;
+        let mut first = Self { objective, limits, criterion, design };
+        first.improve(pool)?;
         if limits.directions == 1 {
             return Ok(first);
         }
         let all: Vec<usize> = (0..pool.orientations.len()).collect();
-        let all = pool.design(objective, &all, (limits.duration, ROUGH))?;
-        let design = pool.design_near(
-            objective,
-            &all.largest(MOST_AT_FIRST * limits.directions),
-            Some(&all),
-            (limits.duration, ROUGH),
-        )?;
-        let mut second = Self { objective, limits, criterion: criterion.clone(), design };
+        let all = pool.design(objective, &all, close)?;
+        let some = all.largest(MOST_AT_FIRST * limits.directions);
+        let design = pool.design_near(objective, &some, Some(&all), close)?;
+        let mut second = Self { design, ..first.clone() };
         while second.design.orientations.len() > limits.directions
             || !second.design.is_runnable(limits.duration)
         {

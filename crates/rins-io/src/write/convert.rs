@@ -11,12 +11,12 @@ use rins_frames::units::{DEG, PPM};
 use super::compare::{Difference, differences};
 use super::exact::inverted;
 use super::rig_text::{column_keys, figures, matrix_keys, push_table};
-use super::{LogFile, along_own_axes, write_log};
+use super::{LogFile, to_own_axes, write_log};
 use crate::document::{Document, Entry, Node};
 use crate::error::{IoError, OutputProblem};
 use crate::log::{Loaded, LogPolicy, LogSummary, read_log};
 use crate::output::{Overwrite, write_files};
-use crate::rig::{LogFormat, Rig};
+use crate::rig::{Axes, LogFormat, Rig};
 
 /// The outcome of a conversion.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,7 +86,7 @@ pub fn convert_changed<E: From<IoError>>(
         let staged = place.with_extension("toml");
         let file = File::create(&place).map_err(IoError::file("write", log))?;
         let mut out = BufWriter::with_capacity(1 << 16, file);
-        write_log(&of_own_axes(&loaded), format, log, &mut out)?;
+        write_log(&along_own_axes(&loaded), format, log, &mut out)?;
         out.into_inner().map_err(|error| IoError::file("write", log)(error.into_error()))?;
         let mut least: Option<(String, Vec<Difference>)> = None;
         for rate in description.rates() {
@@ -129,11 +129,13 @@ pub fn convert_changed<E: From<IoError>>(
 }
 
 /// The run with its readings along the sensors' own axes.
-fn of_own_axes(loaded: &Loaded) -> Cow<'_, Loaded> {
-    match along_own_axes(&loaded.recording, &loaded.rig.spin) {
-        Cow::Borrowed(_) => Cow::Borrowed(loaded),
-        Cow::Owned(recording) => Cow::Owned(Loaded { recording, ..loaded.clone() }),
+fn along_own_axes(loaded: &Loaded) -> Cow<'_, Loaded> {
+    if loaded.rig.spin == Axes::IDENTITY {
+        return Cow::Borrowed(loaded);
     }
+    let mut own = loaded.clone();
+    to_own_axes(&mut own.recording, &loaded.rig.spin);
+    Cow::Owned(own)
 }
 
 /// Refuses outputs that would overwrite inputs.

@@ -14,7 +14,6 @@ mod psins;
 pub(crate) mod rig_text;
 mod signals;
 
-use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -99,18 +98,13 @@ impl LogFile {
     }
 }
 
-/// A recording of a run with these axes, with its readings along the sensors' own axes: exact, because axes are only permuted and reversed.
-pub(crate) fn along_own_axes<'r>(recording: &'r Recording, spin: &Axes) -> Cow<'r, Recording> {
-    if *spin == Axes::IDENTITY {
-        return Cow::Borrowed(recording);
-    }
+/// Changes the readings of a run with these axes to the sensors' own axes: exact, because axes are only permuted and reversed.
+pub(crate) fn to_own_axes(recording: &mut Recording, spin: &Axes) {
     let back = spin.inverse();
-    let mut own = recording.clone();
-    for sample in &mut own.increments {
+    for sample in &mut recording.increments {
         sample.angle = InFrame::from_components(back.apply(sample.angle.components()));
         sample.velocity = InFrame::from_components(back.apply(sample.velocity.components()));
     }
-    Cow::Owned(own)
 }
 
 /// Writes a recording as a log of this format.

@@ -113,7 +113,7 @@ fn designed(scenarios: &[PathBuf], options: &DesignOptions) -> anyhow::Result<De
     let (model, effects) = model_for(goal, name)?;
     let schedule = Schedule::of(scenarios)?;
     let limits = limits(options, &schedule)?;
-    let mountings = mountings(options, &schedule, &effects)?;
+    let mountings = mountings(options, &effects)?;
     let mut inputs: Vec<InputFile> =
         InputFile::of_each(schedule.paths.iter().map(PathBuf::as_path))?;
     let service = service(options, &schedule, &limits, &mut inputs)?;
@@ -197,20 +197,13 @@ fn limits(options: &DesignOptions, schedule: &Schedule) -> anyhow::Result<Limits
     Ok(Limits { rate, acceleration, duration, directions: options.directions })
 }
 
-/// The axes of the mountings, each once.
-fn mountings(
-    options: &DesignOptions,
-    schedule: &Schedule,
-    effects: &[Effect],
-) -> anyhow::Result<Vec<SignedAxes>> {
+/// The axes of the mountings, each once; none for that of the scenario.
+fn mountings(options: &DesignOptions, effects: &[Effect]) -> anyhow::Result<Vec<SignedAxes>> {
     let mut mountings: Vec<SignedAxes> = Vec::new();
     for axes in options.mountings.iter().map(|axes| SignedAxes::from(*axes)) {
         if !mountings.contains(&axes) {
             mountings.push(axes);
         }
-    }
-    if mountings.is_empty() {
-        mountings.push(schedule.runs[0].axes());
     }
     let of_run = effects.iter().find(|effect| effect.term.owner == Owner::Run);
     if let (Some(effect), true) = (of_run, mountings.len() > 1) {

@@ -184,8 +184,8 @@ impl EstimationProblem {
 fn counted_twice(runs: &[Prepared], named: &NamedModel) -> Option<String> {
     let is_known = |run: &&Prepared| {
         let log = shown(&run.loaded.rig.log.path);
-        let inputs = run.basis.provenance.inputs.iter().filter(|input| input.path == log);
-        inputs.into_iter().any(|input| named.digests.contains(&input.sha256))
+        let mut inputs = run.basis.provenance.inputs.iter();
+        inputs.any(|input| input.path == log && named.digests.contains(&input.sha256))
     };
     let known: Vec<&str> = runs.iter().filter(is_known).map(|run| run.name.as_str()).collect();
     (!known.is_empty()).then(|| {
