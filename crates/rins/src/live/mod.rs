@@ -87,6 +87,8 @@ pub struct LiveCalibration {
     log: LiveLog,
     /// The samples before the filter exists.
     start: Recording,
+    /// Their duration \[s\].
+    duration: f64,
     /// The duration of these samples from which the filter is prepared \[s\].
     needed: f64,
     filter: Option<OnlineFilter>,
@@ -147,6 +149,7 @@ impl LiveCalibration {
             needed: options.start,
             options,
             start: Recording::default(),
+            duration: 0.0,
             filter: None,
             resumed: None,
             axes,
@@ -167,21 +170,28 @@ impl LiveCalibration {
 
     fn take(&mut self, recording: Recording) -> anyhow::Result<usize> {
         let count = recording.len();
-        if self.filter.is_some() {
-            self.push(&recording)?;
-            return Ok(count);
-        }
-        append(&mut self.start, recording);
-        let duration: f64 = self.start.increments.iter().map(|sample| sample.interval).sum();
-        if duration >= self.needed {
+        // The filter is prepared from the same samples however the bytes are divided.
+        let mut first = 0;
+        while self.filter.is_none() && first < count {
+            let mut end = first;
+            while self.duration < self.needed && end < count {
+                self.duration += recording.increments[end].interval;
+                end += 1;
+            }
+            append(&mut self.start, recording.slice(first, end));
+            first = end;
+            if self.duration < self.needed {
+                break;
+            }
             let start = self.start.clone();
             match self.begin() {
                 Err(error) if is_static_so_far(&error) => {
-                    (self.start, self.needed) = (start, 2.0 * duration);
+                    (self.start, self.needed) = (start, 2.0 * self.needed);
                 }
                 begun => begun?,
             }
         }
+        self.push(&recording, first)?;
         Ok(count)
     }
 
@@ -205,14 +215,15 @@ impl LiveCalibration {
         let assumptions = &prepared.basis.assumptions;
         self.basis = self.basis.clone().assuming(assumptions.iter().cloned());
         self.filter = Some(OnlineFilter::new(setup)?);
-        self.push(&start)
+        self.push(&start, 0)
     }
 
-    fn push(&mut self, recording: &Recording) -> anyhow::Result<()> {
+    /// Processes the samples from number `first` on.
+    fn push(&mut self, recording: &Recording, first: usize) -> anyhow::Result<()> {
         let Some(filter) = &mut self.filter else { return Ok(()) };
         let reading = recording.table_angle.as_ref().or(recording.table_rate.as_ref());
         for (sample, (&time, &increments)) in
-            recording.times.iter().zip(&recording.increments).enumerate()
+            recording.times.iter().zip(&recording.increments).enumerate().skip(first)
         {
             if self.resumed.is_some_and(|resumed| time <= resumed) {
                 continue;

@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests, and not tests themselves, unwrap too")]
 
 mod campaign;
+mod live;
 mod merge;
 mod read_back;
 mod schema;
