@@ -45,8 +45,9 @@ pub(crate) fn monte_carlo(
     if threads.is_some_and(|threads| !(1..=1024).contains(&threads)) {
         return Err(argument("threads", "expected 1 to 1024"));
     }
-    let model = ModelChoice::parse(&model)
-        .map_err(|expected| argument("model", format!("{model:?}, {expected}")))?;
+    let name = model;
+    let model = ModelChoice::parse(&name)
+        .map_err(|expected| argument("model", format!("{name:?}, {expected}")))?;
     let noise = noise_choice(&noise)?;
     let truth = match &*truth {
         "prior" => TruthChoice::Prior,
@@ -57,7 +58,7 @@ pub(crate) fn monte_carlo(
         }
     };
     let (call, stopped) = Call::with_flag(progress);
-    Outcome::run(py, call, None, move |progress| {
+    Outcome::run(py, call, Some(&name), move |progress| {
         let options = MonteCarloOptions {
             seed,
             model,

@@ -3,12 +3,14 @@
 //! Each function runs on its own thread without the GIL, reports progress to a Python function, and returns on Ctrl-C. The package
 //! in `python/rins` adds arrays, results and plots.
 
+mod blind;
 mod call;
 mod campaign;
 mod columns;
 mod design;
 mod error;
 mod files;
+mod live;
 mod log;
 mod logs;
 mod outcome;
@@ -17,6 +19,8 @@ mod quantity;
 /// The functions of the crate `rins`.
 #[pyo3::pymodule]
 mod _rins {
+    #[pymodule_export]
+    use super::blind::{blind_page, blind_trials};
     #[pymodule_export]
     use super::call::command;
     #[pymodule_export]
@@ -27,6 +31,8 @@ mod _rins {
     use super::design::design;
     #[pymodule_export]
     use super::files::{apply, compare, convert, history, init, mission, observe, simulate};
+    #[pymodule_export]
+    use super::live::LiveCalibration;
     #[pymodule_export]
     use super::log::{Log, check_rig};
     #[pymodule_export]

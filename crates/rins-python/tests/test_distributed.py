@@ -115,7 +115,7 @@ def sha256(path: Path) -> str:
 
 def times(store: Path) -> dict[str, int]:
     """When each shard was written."""
-    return {path.name: path.stat().st_mtime_ns for path in store.glob("part-*.parquet")}
+    return {path.name: path.stat().st_mtime_ns for path in store.glob("part-*") if path.suffix != ".record"}
 
 
 def test_killed_workers_do_not_change_the_campaign(
@@ -208,6 +208,61 @@ def test_more_shards_than_portions_give_the_same_bytes(
     rins.monte_carlo(scenario, 70, tmp_path / "single.parquet")
     rins.distributed.monte_carlo(client, scenario, 70, store=tmp_path / "store", shards=5)
     assert sha256(tmp_path / "store/campaign.parquet") == sha256(tmp_path / "single.parquet")
+
+
+MODEL = """
+schema = 1
+base = "paper12"
+
+[[term]]
+id = "gyro.scale"
+estimate = ["x", "z"]
+sigma = { x = "1 ppm" }
+"""
+
+
+def test_campaign_of_a_model_file_is_that_of_one_process(
+    client: Client, scenario: Path, tmp_path: Path
+) -> None:
+    model = tmp_path / "model.toml"
+    model.write_text(MODEL, encoding="utf-8")
+    for name, choice in (("full", "full"), ("file", model)):
+        options: dict[str, Any] = {"seed": 3, "model": choice, "noise": "given", "truth": "scenario"}
+        single = tmp_path / f"{name}.parquet"
+        rins.monte_carlo(scenario, 6, single, **options)
+        store = tmp_path / name
+        rins.distributed.monte_carlo(client, scenario, 6, store=store, shards=3, **options)
+        assert sha256(store / "campaign.parquet") == sha256(single), name
+        # The store belongs to this model.
+        with pytest.raises(rins.DataError, match="model: the store holds a campaign with"):
+            rins.distributed.monte_carlo(client, scenario, 6, store=store, seed=3)
+    model.write_text(MODEL.replace("1 ppm", "1 m"), encoding="utf-8")
+    with pytest.raises(rins.ModelError) as caught:
+        rins.distributed.monte_carlo(client, scenario, 6, store=tmp_path / "bad", model=model)
+    assert caught.value.file == str(model) and caught.value.line == 8
+    assert not (tmp_path / "bad").exists()
+
+
+def test_blind_trials_in_shards_are_those_of_one_shard(client: Client, tmp_path: Path) -> None:
+    def found(journal: Path) -> list[dict[str, Any]]:
+        with open(journal, encoding="utf-8") as lines:
+            return [json.loads(without_time(line)) for line in lines]
+
+    call: dict[str, Any] = {"seed": 5, "population": "null"}
+    one = rins.distributed.blind(client, 4, store=tmp_path / "one", shards=1, **call)
+    several = rins.distributed.blind(client, 4, store=tmp_path / "several", shards=4, **call)
+    assert one.journal == tmp_path / "one/trials.jsonl" and len(one.records()) == 4
+    assert found(one.journal) == found(several.journal)
+    assert one.page.splitlines()[0] == several.page.splitlines()[0]
+    assert "4 runs" in several.page and "0 ended without an answer" in several.page
+    # All shards are there: nothing is run again.
+    before = times(tmp_path / "several")
+    rins.distributed.blind(client, 4, store=tmp_path / "several", **call)
+    assert times(tmp_path / "several") == before
+    with pytest.raises(rins.DataError, match="seed: the store holds a campaign with 5"):
+        rins.distributed.blind(client, 4, store=tmp_path / "several", seed=6, population="null")
+    with pytest.raises(ValueError, match="population: 'all'"):
+        rins.distributed.blind(client, 4, store=tmp_path / "no", population="all")
 
 
 def test_wrong_arguments_are_refused_before_the_campaign(

@@ -31,12 +31,15 @@ from ._commands import (
     simulate,
 )
 from ._errors import DataError, ModelError, RinsError
+from ._live import LiveCalibration
 from ._recording import Recording
 from ._result import (
     AllanResult,
     CalibrateResult,
     DiagnoseResult,
+    EstimateResult,
     InitResult,
+    LiveResult,
     MissionResult,
     NavigateResult,
     ObserveResult,
@@ -52,7 +55,10 @@ __all__ = [
     "CalibrateResult",
     "DataError",
     "DiagnoseResult",
+    "EstimateResult",
     "InitResult",
+    "LiveCalibration",
+    "LiveResult",
     "MissionResult",
     "ModelError",
     "NavigateResult",

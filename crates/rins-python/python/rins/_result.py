@@ -171,19 +171,25 @@ def _html_rows(rows: Sequence[object]) -> str:
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
-class CalibrateResult(Result["schema.CalibrateResult"]):
-    """The result of `rins.calibrate`: estimates with their covariance.
-
-    A parameter that the data show only in a combination has the value and the uncertainty of the combination; see `table`.
-    """
+class EstimateResult(Result[D]):
+    """Estimates of n parameters with their covariance."""
 
     _rows = "parameters"
+    _identified = "identifiable"
+    """The field of a parameter that states whether the data determine it."""
+
+    @property
+    def identified(self) -> NDArray[np.bool_]:
+        """Whether the data determine each parameter, shape (n,)."""
+        import numpy as np
+
+        return np.array([one[self._identified] for one in self.data["parameters"]], dtype=np.bool_)
 
     @property
     def names(self) -> list[str]:
         """The ids of the parameters, n; of a parameter that belongs to one run with ``@run``."""
         return [
-            one["id"] if one["run"] is None else f"{one['id']}@{one['run']}"
+            one["id"] if one.get("run") is None else f"{one['id']}@{one['run']}"
             for one in self.data["parameters"]
         ]
 
@@ -225,6 +231,23 @@ class CalibrateResult(Result["schema.CalibrateResult"]):
         from .plot import parameters
 
         return parameters(self, ax, unit=unit)
+
+
+class CalibrateResult(EstimateResult["schema.CalibrateResult"]):
+    """The result of `rins.calibrate`: estimates with their covariance.
+
+    A parameter that the data show only in a combination has the value and the uncertainty of the combination: its
+    `identified` is false, and ``aliases`` names the others.
+    """
+
+
+class LiveResult(EstimateResult["schema.LiveResult"]):
+    """The result of `rins.LiveCalibration`: estimates with their covariance.
+
+    A parameter that is not `identified` by the samples has a value close to what was known beforehand.
+    """
+
+    _identified = "identified"
 
 
 class DiagnoseResult(Result["schema.DiagnoseResult"]):

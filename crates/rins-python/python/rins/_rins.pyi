@@ -3,12 +3,15 @@ from os import PathLike
 from typing import Any, Protocol, TypedDict, final
 
 __all__ = [
+    "LiveCalibration",
     "Log",
     "Outcome",
     "VERSION",
     "align",
     "allan",
     "apply",
+    "blind_page",
+    "blind_trials",
     "calibrate",
     "check",
     "check_rig",
@@ -70,6 +73,25 @@ class Outcome:
     def page(self) -> str | None: ...
     def write(self, folder: _Path, force: bool) -> str | None: ...
 
+class _Live(TypedDict):
+    model: str
+    duration: float | None
+    start: float
+    source: _Path | None
+    checkpoint: _Path | None
+
+@final
+class LiveCalibration:
+    def __new__(cls, rig: _Path, options: _Live) -> LiveCalibration: ...
+    def feed(self, data: bytes) -> int: ...
+    @property
+    def time(self) -> float | None: ...
+    @property
+    def parameters(self) -> str | None: ...
+    def line(self) -> str: ...
+    def write_checkpoint(self, path: _Path) -> bool: ...
+    def end(self) -> Outcome: ...
+
 class _Diagnose(TypedDict):
     model: str
     held_out: Log | None
@@ -129,6 +151,17 @@ class _Campaign(TypedDict):
     threads: int | None
     force: bool
 
+class _Trials(TypedDict):
+    program: _Path
+    population: str
+    seed: int
+    trials: int
+    shard: tuple[int, int]
+    threads: int
+    journal: _Path
+
+def blind_trials(trials: _Trials) -> None: ...
+def blind_page(journals: list[_Path], merged: _Path, population: str) -> str: ...
 def check_rig(text: str, path: str) -> None: ...
 def table(columns: list[tuple[str, Sequence[object]]]) -> _ArrowStream: ...
 def command(words: Sequence[str]) -> int: ...

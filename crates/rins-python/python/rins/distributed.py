@@ -4,6 +4,7 @@
 | --- | --- |
 | `monte_carlo` | a Monte Carlo campaign in shards, merged: the bytes of `rins.monte_carlo` |
 | `diagnose_many` | one diagnosis for each rig |
+| `blind` | blind trials of the diagnosis in shards, and their figures |
 
 Each task puts one file into a store: a folder that all workers reach, or a URL that fsspec opens, such as ``s3://bucket/campaign``.
 Results do not pass through the scheduler. A task is idempotent; a call that is repeated continues with what the store holds. A file
@@ -18,17 +19,27 @@ counts as complete if its SHA-256 is the recorded one.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Mapping, Sequence
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from . import _rins
 from ._commands import merge
 from ._errors import DataError
 from ._progress import Report, listener
 from ._rigs import Diagnosis, Diagnoses, Options
-from ._shards import Campaign, usual_shards
+from ._shards import (
+    RUNS_OF_A_SHARD,
+    TRIALS_OF_A_SHARD,
+    Campaign,
+    ModelOption,
+    Shards,
+    Trials,
+    usual_shards,
+)
 from ._store import Store
 from ._tasks import DistributedError, Task, ensure_synchronous, run_all, threads_of
 
@@ -38,9 +49,10 @@ if TYPE_CHECKING:
     from . import schema
     from ._result import Result
 
-__all__ = ["Diagnosis", "DistributedError", "diagnose_many", "monte_carlo"]
+__all__ = ["BlindTrials", "Diagnosis", "DistributedError", "blind", "diagnose_many", "monte_carlo"]
 
 _MERGED = "campaign.parquet"
+_JOURNAL = "trials.jsonl"
 
 
 def monte_carlo(
@@ -51,6 +63,9 @@ def monte_carlo(
     store: str | PathLike[str],
     shards: int | None = None,
     seed: int | None = None,
+    model: str | PathLike[str] = "paper12",
+    noise: str = "likely",
+    truth: str = "prior",
     output: str | PathLike[str] | None = None,
     force: bool = False,
     retries: int = 5,
@@ -76,6 +91,8 @@ def monte_carlo(
         The number of shards; by default that of the campaign in the store, otherwise four a thread, with at most 10,000 runs each.
     seed : int, optional
         The seed; by default the scenario's.
+    model, noise, truth
+        As of `rins.monte_carlo`. Workers get the content of a model file.
     output : path-like, optional
         The file of the merged results on the machine of the client; the report page lies beside it. By default ``campaign.parquet``
         in a store that is a folder.
@@ -113,31 +130,138 @@ def monte_carlo(
     _ensure_numbers({"shards": shards, "in_flight": in_flight}, 1)
     place = Store.at(store, storage_options)
     if shards is None:
-        shards = usual_shards(place, runs, threads_of(client))
+        shards = usual_shards(place, runs, threads_of(client), RUNS_OF_A_SHARD)
     path = Path(scenario)
-    campaign = Campaign(path.name, _read(path), runs, seed, shards, threads, place)
-    merged, force = _output(place, output, force)
+    campaign = Campaign(
+        shards=shards,
+        threads=threads,
+        store=place,
+        name=path.name,
+        scenario=_read(path),
+        runs=runs,
+        seed=seed,
+        model=_model_option(model),
+        noise=noise,
+        truth=truth,
+    )
+    merged, force = _output(place, output, _MERGED, force)
     campaign.check()
-    campaign.begin()
-    report = listener(progress)
+    _run_shards(client, campaign, "monte-carlo", (retries, deaths, in_flight), progress)
+    with campaign.collected(merged.parent) as parts:
+        return merge(parts, merged, force=force)
 
-    def tasks() -> Iterator[Task]:
-        for shard in range(1, shards + 1):
-            yield Task(shard, f"shard {shard} of {shards}", campaign.ensure_shard, (shard,))
 
-    count = _Count("running shards", shards, report)
+@dataclass(frozen=True)
+class BlindTrials:
+    """Blind trials that were run."""
+
+    journal: Path
+    """One line for each trial, in their order: what was hidden, and the diagnosis."""
+    page: str
+    """The figures, as Markdown: the page of the book."""
+
+    def records(self) -> list[dict[str, Any]]:
+        """The trials of the journal."""
+        with open(self.journal, encoding="utf-8") as lines:
+            return [json.loads(line) for line in lines]
+
+
+def blind(
+    client: Client,
+    trials: int,
+    *,
+    store: str | PathLike[str],
+    seed: int = 1,
+    population: str = "blind",
+    shards: int | None = None,
+    output: str | PathLike[str] | None = None,
+    force: bool = False,
+    retries: int = 5,
+    deaths: int = 100,
+    threads: int = 1,
+    in_flight: int | None = None,
+    storage_options: Mapping[str, Any] | None = None,
+    progress: bool | Report = False,
+) -> BlindTrials:
+    """Run blind trials of the diagnosis in shards on the workers of a cluster.
+
+    An independent simulator draws a run with a hidden error, or without one; the command `rins diagnose` of the worker gets the log
+    and the rig file.
+
+    Parameters
+    ----------
+    client : distributed.Client
+        The client of the cluster.
+    trials : int
+        The number of trials. Each takes seconds to a minute.
+    store : path-like or str
+        Where the shards are kept: a folder that the client and all workers reach, or a URL of fsspec.
+    seed : int
+        The seed: trial number i under a seed is always the same.
+    population : {"blind", "null"}
+        ``"null"`` draws runs without an unmodeled error, for the rate of false alarms.
+    shards : int, optional
+        The number of shards; by default that in the store, otherwise four a thread, with at most 10 trials each.
+    output : path-like, optional
+        The journal of all trials on the machine of the client; by default ``trials.jsonl`` in a store that is a folder.
+    threads : int
+        The number of threads of a diagnosis.
+    force, retries, deaths, in_flight, storage_options, progress
+        As of `monte_carlo`.
+
+    Returns
+    -------
+    BlindTrials
+        The same as without shards, except for run times.
+
+    Raises
+    ------
+    DataError
+        If the store cannot be used or holds other trials, or the output exists.
+    DistributedError
+        If a shard failed more often than `retries` and `deaths` permit.
+    """
+    ensure_synchronous(client)
+    _ensure_numbers({"trials": trials, "threads": threads}, 1)
+    _ensure_numbers({"seed": seed, "retries": retries, "deaths": deaths}, 0)
+    _ensure_numbers({"shards": shards, "in_flight": in_flight}, 1)
+    if population not in ("blind", "null"):
+        raise ValueError(f'population: {population!r}, expected "blind" or "null"')
+    place = Store.at(store, storage_options)
+    if shards is None:
+        shards = usual_shards(place, trials, threads_of(client), TRIALS_OF_A_SHARD)
+    merged, _ = _output(place, output, _JOURNAL, force)
+    work = Trials(
+        shards=shards, threads=threads, store=place, population=population, trials=trials, seed=seed
+    )
+    _run_shards(client, work, "blind", (retries, deaths, in_flight), progress)
+    with work.collected(merged.parent) as parts:
+        page = _rins.blind_page([fspath(part) for part in parts], merged, population)
+    return BlindTrials(merged, page)
+
+
+def _run_shards(
+    client: Client,
+    work: Shards,
+    name: str,
+    limits: tuple[int, int, int | None],
+    progress: bool | Report,
+) -> None:
+    """Claim the store and compute all shards that it lacks."""
+    work.begin()
+    count = _Count("running shards", work.shards, listener(progress))
+    retries, deaths, in_flight = limits
     run_all(
         client,
-        tasks(),
-        name="rins-monte-carlo",
+        work.tasks(),
+        name=f"rins-{name}",
         retries=retries,
         deaths=deaths,
         in_flight=in_flight,
         done=lambda task: count.add(),
         failed=_give_up,
     )
-    place.remove_unfinished()
-    return _merged(campaign, merged, force)
+    work.store.remove_unfinished()
 
 
 def _give_up(task: Task, error: BaseException, what: str) -> None:
@@ -149,28 +273,12 @@ def _give_up(task: Task, error: BaseException, what: str) -> None:
     ) from error
 
 
-def _merged(campaign: Campaign, output: Path, force: bool) -> Result[schema.CampaignResult]:
-    """Merge the shards: where they lie if the store is a folder, otherwise in a temporary folder beside the output."""
-    store = campaign.store
-    folder = store.local("")
-    if folder is not None:
-        return merge([folder / name for name in campaign.parts()], output, force=force)
-    with TemporaryDirectory(prefix=".rins-", dir=output.parent) as temporary:
-        parts = []
-        for shard, name in enumerate(campaign.parts(), 1):
-            parts.append(Path(temporary, name))
-            if store.get(name, parts[-1]) != store.recorded(name, campaign.identity_of(shard)):
-                raise DataError(
-                    f"{store.name(name)}: its SHA-256 is not the recorded one; call again to repeat this shard",
-                    store.name(name),
-                )
-        return merge(parts, output, force=force)
-
-
-def _output(store: Store, output: str | PathLike[str] | None, force: bool) -> tuple[Path, bool]:
+def _output(
+    store: Store, output: str | PathLike[str] | None, name: str, force: bool
+) -> tuple[Path, bool]:
     """The file of the merged results, and whether it is replaced if it exists."""
     if output is None:
-        path = store.local(_MERGED)
+        path = store.local(name)
         if path is None:
             raise ValueError("output: missing, expected a file for the merged results, since the store is not a folder")
         return path, True
@@ -298,6 +406,12 @@ def _read(path: Path) -> bytes:
         return path.read_bytes()
     except OSError as error:
         raise DataError(f"cannot read {path}: {error.strerror}", str(path)) from error
+
+
+def _model_option(model: str | PathLike[str]) -> ModelOption:
+    """A model by its name or with the content of its file."""
+    name = fspath(model)
+    return ModelOption(name, None if name in ("paper12", "full") else _read(Path(model)))
 
 
 def _model(path: str | PathLike[str]) -> tuple[str, bytes]:

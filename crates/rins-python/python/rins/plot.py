@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 from math import log
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ._result import (
         AllanResult,
-        CalibrateResult,
         DiagnoseResult,
+        EstimateResult,
         MissionResult,
         ObserveResult,
     )
@@ -28,12 +28,14 @@ def _axes(ax: Axes | None) -> Axes:
     return plt.subplots(layout="constrained")[1]
 
 
-def parameters(result: CalibrateResult, ax: Axes | None = None, *, unit: str | None = None) -> Axes:
+def parameters(
+    result: EstimateResult[Any], ax: Axes | None = None, *, unit: str | None = None
+) -> Axes:
     """The estimates with their 3 sigma bars; a parameter that the data alone do not show is gray.
 
     Parameters
     ----------
-    result : CalibrateResult
+    result : EstimateResult
         The calibration.
     ax : Axes, optional
         Where to draw; by default a new figure.
@@ -47,22 +49,19 @@ def parameters(result: CalibrateResult, ax: Axes | None = None, *, unit: str | N
     """
     units = Counter(result.units)
     unit = unit or units.most_common(1)[0][0]
-    shown = [
-        (name, one)
-        for name, one in zip(result.names, result.data["parameters"])
-        if one["unit"] == unit
-    ]
+    rows = zip(result.names, result.units, result.x, result.se, result.identified)
+    shown = [row for row in rows if row[1] == unit]
     if not shown:
         raise ValueError(f"unit: {unit!r}, expected one of {list(units)}")
     ax = _axes(ax)
-    for row, (_, one) in enumerate(shown):
-        color = "C0" if one["identifiable"] else "0.6"
-        ax.errorbar(one["value"], row, xerr=3.0 * one["sigma"], fmt="o", color=color, capsize=3)
-    ax.set_yticks(range(len(shown)), [name for name, _ in shown])
+    for row, (_, _, value, sigma, is_identified) in enumerate(shown):
+        color = "C0" if is_identified else "0.6"
+        ax.errorbar(value, row, xerr=3.0 * sigma, fmt="o", color=color, capsize=3)
+    ax.set_yticks(range(len(shown)), [one[0] for one in shown])
     ax.invert_yaxis()
     ax.axvline(0.0, color="0.8", zorder=0)
     ax.set_xlabel(f"estimate ± 3σ [{unit}]")
-    ax.set_title(f"rins calibrate, model {result.data['model']}")
+    ax.set_title(f"rins {result.data['command']}, model {result.data['model']}")
     return ax
 
 

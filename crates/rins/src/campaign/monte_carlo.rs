@@ -63,15 +63,18 @@ fn campaign(scenario: &Path, options: &MonteCarloOptions) -> anyhow::Result<Camp
     }
     let axes = rins_io::Axes::IDENTITY;
     let named = NamedModel::of(&options.model, &axes)?;
-    let text = match &options.model {
+    // Without its folder: the shards of other machines are of the same campaign.
+    let (name, text) = match &options.model {
         ModelChoice::File(path) => {
-            std::fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))?
+            let text = std::fs::read_to_string(path);
+            let name = path.file_name().map_or_else(|| shown(path), |name| shown(name.as_ref()));
+            (name, text.with_context(|| format!("cannot read {}", shown(path)))?)
         }
-        _ => String::new(),
+        _ => (named.name.clone(), String::new()),
     };
     let prepared = ModelRuns::of(files(scenario, &grid), &named, seed, options)?;
     let model = CampaignModel {
-        name: named.name,
+        name,
         text,
         noise: options.noise.name().into(),
         truth: options.truth.name().into(),

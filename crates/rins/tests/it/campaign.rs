@@ -185,6 +185,32 @@ fn true_values_of_the_scenario_are_those_of_every_run() {
     assert_eq!(combined.unwrap().posterior.as_ref().unwrap().calibrated, None);
 }
 
+/// Machines have the model file in different folders.
+#[test]
+fn shards_of_a_model_file_in_different_folders_are_one_campaign() {
+    let folders = [Folder::new(), Folder::new()];
+    let terms = "[[term]]\nid = \"gyro.scale\"\nestimate = [\"z\"]\n";
+    let parts = [1, 2].map(|shard| {
+        let folder = &folders[shard as usize - 1];
+        let options = MonteCarloOptions {
+            model: folder.model("paper12", terms),
+            shard: Some((shard, 2)),
+            ..folder.full(4, "part.parquet")
+        };
+        folder.run(&options).unwrap();
+        folder.path("part.parquet")
+    });
+    let merged = folders[0].path("merged.parquet");
+    let result = rins::merge(&parts, &merged, Overwrite::Refuse).unwrap().result();
+    assert_eq!(result.model.as_deref(), Some("model.toml"));
+    let options = MonteCarloOptions {
+        model: folders[1].model("paper12", terms),
+        ..folders[1].full(4, "whole.parquet")
+    };
+    folders[1].run(&options).unwrap();
+    assert!(folders[0].bytes("merged.parquet") == folders[1].bytes("whole.parquet"));
+}
+
 #[test]
 fn a_model_file_adds_its_parameters_and_leaves_other_errors_as_they_are() {
     let folder = Folder::new();
