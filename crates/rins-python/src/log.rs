@@ -135,6 +135,20 @@ impl Log {
         self.log.repairs()
     }
 
+    /// The log compensated with a calibration file, and the remarks on it.
+    fn compensated(
+        &self,
+        py: Python<'_>,
+        calibration: PathBuf,
+        extrapolate: bool,
+    ) -> PyResult<(Self, Vec<String>)> {
+        let log = self.log();
+        let compensate = move |_: &_| log.compensated(&calibration, extrapolate);
+        let done = Call::new(None).run(py, compensate)?;
+        let (log, notes) = done.map_err(|error| exception(py, &error, None))?;
+        Ok((Self::of(log), notes))
+    }
+
     /// The signals: name, number of components and memory, the components one after the other.
     fn memory(&self) -> Vec<(&'static str, usize, PyArrowBuffer)> {
         let signals = self.signals().iter();

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
@@ -64,6 +65,31 @@ def test_arrays_give_the_estimates_of_the_file(columns: Columns) -> None:
     assert len(inputs[1]["sha256"]) == 64
     changed = {**columns, "t": columns["t"] + 1.0}
     assert of_arrays(changed).inputs[1] != made.inputs[1]
+
+
+def test_recordings_are_compensated_as_the_file_is(columns: Columns, tmp_path: Path) -> None:
+    made = of_arrays(columns)
+    rins.calibrate(made).write(tmp_path / "out")
+    calibration = tmp_path / "out" / "calibration.toml"
+    rins.apply(RIG, calibration, tmp_path / "clean.parquet")
+    written = rins.Recording.open(tmp_path / "clean.toml")
+    ours = made.compensated(calibration)
+    for name in ("t", "gyro", "accel", "table_angle"):
+        np.testing.assert_array_equal(getattr(ours, name), getattr(written, name))
+    assert np.abs(ours.gyro - made.gyro).max() > 1e-5
+    # Its own scale error is none any more.
+    left = rins.calibrate(ours)
+    assert abs(left.x[2]) < 5.0 * left.se[2]
+    assert str(calibration) in [name for name, _ in ours.inputs]
+    text = calibration.read_text(encoding="utf-8")
+    slow = re.sub(r"(?m)^rate = .*$", 'rate = ["-1 deg/s", "1 deg/s"]', text)
+    assert slow != text
+    calibration.write_text(slow, encoding="utf-8")
+    with pytest.warns(UserWarning, match="outside"):
+        made.compensated(calibration)
+    calibration.write_text("", encoding="utf-8")
+    with pytest.raises(rins.DataError):
+        made.compensated(calibration)
 
 
 def test_memory_layout_does_not_matter(columns: Columns) -> None:

@@ -16,7 +16,7 @@ use crate::basis::BasisResult;
 use crate::check::refuse_mistaken;
 use crate::convert::{basis_of, format_of, remarks};
 use crate::error::Result;
-use crate::log::{Beyond, OutsideRange, beyond};
+use crate::log::{Beyond, Log, OutsideRange, beyond};
 use crate::navigate::axis_attitude;
 use crate::outcome::Outcome;
 
@@ -118,10 +118,7 @@ fn applied(rig: &Path, options: ApplyOptions) -> anyhow::Result<Applied> {
     let calibration = Calibration::read(file)?;
     let mut found = Beyond::default();
     let converted = convert_changed(rig, output, format, *overwrite, |loaded| {
-        refuse_mistaken(loaded)?;
-        let run = calibration.in_run(&loaded.rig.spin)?;
-        found = beyond(&calibration, &run.1, loaded, *extrapolate)?;
-        undo(run, loaded).with_context(|| shown(file))?;
+        found = compensate(loaded, &calibration, *extrapolate)?;
         anyhow::Ok(format!("Written by `rins apply` with the calibration {}.", shown(file)))
     })?;
     let triads = Model::from(&calibration.error);
@@ -129,6 +126,33 @@ fn applied(rig: &Path, options: ApplyOptions) -> anyhow::Result<Applied> {
     let undone = terms.map(|chosen| chosen.term.id).collect();
     let basis = basis_of(&converted)?.with_files([InputFile::of(file)?]);
     Ok(Applied { rig: shown(rig), format, undone, beyond: found, converted, basis, options })
+}
+
+impl Log {
+    /// The log compensated with a calibration file, in memory, and what of it lies outside of what the calibration covers, in
+    /// sentences.
+    ///
+    /// # Errors
+    /// As [`apply`].
+    pub fn compensated(&self, calibration: &Path, extrapolate: bool) -> Result<(Self, Vec<String>)> {
+        let mut log = self.clone();
+        let found = compensate(&mut log.loaded, &Calibration::read(calibration)?, extrapolate)?;
+        log.inputs.push(InputFile::of(calibration)?);
+        Ok((log, found.notes))
+    }
+}
+
+/// Compensates a log with a calibration; returns what of it lies outside of what the calibration covers.
+fn compensate(
+    loaded: &mut Loaded,
+    calibration: &Calibration,
+    extrapolate: bool,
+) -> anyhow::Result<Beyond> {
+    refuse_mistaken(loaded)?;
+    let run = calibration.in_run(&loaded.rig.spin)?;
+    let found = beyond(calibration, &run.1, loaded, extrapolate)?;
+    undo(run, loaded).with_context(|| shown(&calibration.path))?;
+    Ok(found)
 }
 
 impl fmt::Display for Applied {

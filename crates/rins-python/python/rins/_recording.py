@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, Unpack
@@ -168,6 +169,33 @@ class Recording:
         recording = cls.__new__(cls)
         recording._log, recording._rig = log, rig
         return recording
+
+    def compensated(
+        self, calibration: str | PathLike[str], *, extrapolate: bool = False
+    ) -> Recording:
+        """The recording compensated with a calibration, as `rins.apply` writes it.
+
+        Parameters
+        ----------
+        calibration : path-like
+            The calibration file.
+        extrapolate : bool
+            Whether readings are compensated far outside the calibrated range of temperature.
+
+        Raises
+        ------
+        DataError
+            If units, signs or axes are wrong, or the calibration is of another IMU or does not cover the recording.
+
+        Warns
+        -----
+        UserWarning
+            If temperature, rate or date lie outside of what was calibrated.
+        """
+        log, notes = self._log.compensated(fspath(calibration), extrapolate)
+        for note in notes:
+            warnings.warn(note, stacklevel=2)
+        return self._of(log, self._rig)
 
     @property
     def rig(self) -> Rig:
