@@ -38,7 +38,7 @@ The noise is white in one half of the runs. In the other half it has bias instab
 the data sheet does not state. The estimate allows for bias instability, which a short run cannot exclude: where noise predominates and is
 white, the intervals are conservative.
 
-| reference | stated accuracy, every factor as likely as another |
+| reference | stated accuracy, log-uniform |
 | --- | --- |
 | rate of the table | 0.00001 to 0.001 deg/s |
 | angle of the table | 0.3 to 10 arcsec |

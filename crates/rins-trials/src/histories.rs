@@ -23,8 +23,8 @@ const HEAD: &str = "# Trials of histories
 
 How well `rins history` names what varies between runs, and predicts the next run. Campaigns of 5 to 16 runs are simulated apart from
 the code that analyzes them: 3 to 6 parameters with correlated estimates, power-ons of one or several runs, dates, times since power-on,
-temperatures, one unit or a fleet of 6 to 16. One parameter varies, so many sigmas strong beyond what a constant absorbs. The last run is
-predicted from the runs before it. `cargo xtask histories` runs them and writes this page.
+temperatures, one unit or a fleet of 6 to 16. One parameter varies; the tables state how many sigmas of its variation a constant does
+not explain. The last run is predicted from the runs before it. `cargo xtask histories` runs them and writes this page.
 
 ";
 
