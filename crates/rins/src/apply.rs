@@ -134,7 +134,11 @@ impl Log {
     ///
     /// # Errors
     /// As [`apply`].
-    pub fn compensated(&self, calibration: &Path, extrapolate: bool) -> Result<(Self, Vec<String>)> {
+    pub fn compensated(
+        &self,
+        calibration: &Path,
+        extrapolate: bool,
+    ) -> Result<(Self, Vec<String>)> {
         let mut log = self.clone();
         let found = compensate(&mut log.loaded, &Calibration::read(calibration)?, extrapolate)?;
         log.inputs.push(InputFile::of(calibration)?);

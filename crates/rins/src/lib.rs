@@ -64,6 +64,7 @@ mod options;
 mod outcome;
 mod preparation;
 mod progress;
+mod references;
 mod schema;
 mod settings;
 mod table;

@@ -29,6 +29,7 @@ mod observe;
 mod population;
 mod prior_consistency;
 mod provenance;
+mod references;
 mod repairs;
 mod replaced;
 mod round_trip;

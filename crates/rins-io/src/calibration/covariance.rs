@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use crate::document::{Entry, Node, Value};
 use crate::error::IoError;
@@ -15,6 +15,9 @@ const MOST_CORRELATION: f64 = 1.0 + 1e-6;
 /// The accepted relative difference of a stated sigma from that of the covariance: it may be rounded to one or two digits.
 const SIGMA_WITHIN: f64 = 0.1;
 
+/// The keys of the section.
+const KEYS: &[&str] = &["ids", "rows", "references", "shifts"];
+
 /// The covariance of the numbers that a calibration estimated, in their units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Covariance {
@@ -22,6 +25,9 @@ pub struct Covariance {
     pub ids: Vec<String>,
     /// The covariances, in the product of the units of row and column.
     pub matrix: DMatrix<f64>,
+    /// The parts of it that references add: for the key that states the accuracy of a reference, the change of each parameter by one
+    /// standard uncertainty of it. The error of a reference is the same in all calibrations with it.
+    pub references: Vec<(String, DVector<f64>)>,
 }
 
 /// Reads `[covariance]`, whose ids must be in `known`, and which must agree with the `stated` sigmas in the same units.
@@ -30,7 +36,7 @@ pub(super) fn read(
     known: &[String],
     stated: &[(String, f64)],
 ) -> Result<Option<Covariance>, IoError> {
-    let Some(section) = root.section("covariance", &["ids", "rows"])? else { return Ok(None) };
+    let Some(section) = root.section("covariance", KEYS)? else { return Ok(None) };
     let ids = section.list_of_texts("ids", "a list of ids of parameters")?;
     if ids.is_empty() {
         return Err(section.missing("ids", "a list of ids of parameters"));
@@ -60,11 +66,7 @@ pub(super) fn read(
             return Err(section.conflict("rows", reason));
         }
         for (column, value) in numbers.iter().enumerate() {
-            let number = match value.node {
-                Node::Number(number) => number,
-                Node::Integer(number) => number as f64,
-                _ => return Err(wrong(value)),
-            };
+            let number = number(value).ok_or_else(|| wrong(value))?;
             matrix[(row, column)] = number;
             matrix[(column, row)] = number;
         }
@@ -82,7 +84,61 @@ pub(super) fn read(
             return Err(section.conflict("rows", reason));
         }
     }
-    Ok(Some(Covariance { ids, matrix }))
+    let references = references(&section, &ids, &matrix)?;
+    Ok(Some(Covariance { ids, matrix, references }))
+}
+
+fn number(value: &Value) -> Option<f64> {
+    match value.node {
+        Node::Number(number) => Some(number),
+        Node::Integer(number) => Some(number as f64),
+        _ => None,
+    }
+}
+
+/// The parts of the matrix that references add; the variance of a part is at most that of the whole.
+fn references(
+    section: &Section<'_>,
+    ids: &[String],
+    matrix: &DMatrix<f64>,
+) -> Result<Vec<(String, DVector<f64>)>, IoError> {
+    let names = section.list_of_texts("references", "a list of references")?;
+    let expected = "a list of rows of numbers: for each reference a number for each id";
+    let rows = match section.get("shifts") {
+        None if names.is_empty() => return Ok(Vec::new()),
+        None => return Err(section.missing("shifts", expected)),
+        Some(Entry { value, .. }) => match &value.node {
+            Node::List(rows) => rows,
+            _ => return Err(section.wrong_type("shifts", value, expected.into())),
+        },
+    };
+    if rows.len() != names.len() {
+        let reason = format!("has {} rows for {} references", rows.len(), names.len());
+        return Err(section.conflict("shifts", reason));
+    }
+    let mut all = Vec::with_capacity(names.len());
+    for (name, row) in names.into_iter().zip(rows) {
+        let numbers = match &row.node {
+            Node::List(numbers) => numbers.iter().map(number).collect::<Option<Vec<f64>>>(),
+            _ => None,
+        };
+        let Some(numbers) = numbers else {
+            return Err(section.wrong_type("shifts", row, expected.into()));
+        };
+        if numbers.len() != ids.len() {
+            let reason = format!("has {} numbers for {} ids", numbers.len(), ids.len());
+            return Err(section.conflict("shifts", reason));
+        }
+        let is_part =
+            |place: usize| numbers[place].abs() <= MOST_CORRELATION * matrix[(place, place)].sqrt();
+        if let Some(place) = (0..ids.len()).find(|&place| !is_part(place)) {
+            let reason =
+                format!("holds {} for {}, which is beyond its sigma", numbers[place], ids[place]);
+            return Err(section.conflict("shifts", reason));
+        }
+        all.push((name, DVector::from_vec(numbers)));
+    }
+    Ok(all)
 }
 
 /// The first element whose variance is not positive, or whose covariance exceeds the limit of the variances.
@@ -109,5 +165,19 @@ pub(super) fn written(covariance: &Covariance) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "    [{}],", numbers.collect::<Vec<_>>().join(", "));
     }
-    text + "]\n"
+    text.push_str("]\n");
+    if !covariance.references.is_empty() {
+        let names = quoted(covariance.references.iter().map(|(name, _)| name.as_str()));
+        let _ = write!(
+            text,
+            "# Parts of it: changes of the parameters by one standard uncertainty of a reference.\n\
+             references = [{names}]\nshifts = [\n"
+        );
+        for (_, shifts) in &covariance.references {
+            let numbers: Vec<String> = shifts.iter().map(|shift| format!("{shift:e}")).collect();
+            let _ = writeln!(text, "    [{}],", numbers.join(", "));
+        }
+        text.push_str("]\n");
+    }
+    text
 }

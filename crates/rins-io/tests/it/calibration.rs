@@ -161,6 +161,8 @@ const BEYOND: &str = r#"
 [covariance]
 ids = ["gyro.scale.z", "accel_lever_arm.r_x", "encoder_harmonic#2.sin"]
 rows = [[0.04], [-1e-3, 0.25], [0, 0.0, 0.01]]
+references = ["table.rate_accuracy", "site.gravity_accuracy"]
+shifts = [[0.15, 0, 0.0], [0.0, -0.3, 1e-3]]
 
 [[term]]
 id = "accel_lever_arm"
@@ -198,6 +200,11 @@ fn what_is_off_beyond_the_triads_is_written_and_read() {
     assert_eq!(covariance.matrix[(0, 1)], -1e-3);
     assert_eq!(covariance.matrix[(1, 0)], -1e-3);
     assert_eq!(covariance.matrix[(2, 2)], 0.01);
+    let (name, shifts) = &covariance.references[1];
+    assert_eq!(
+        (name.as_str(), shifts.as_slice()),
+        ("site.gravity_accuracy", &[0.0, -0.3, 1e-3][..])
+    );
 
     let text = calibration.to_toml();
     assert!(text.contains("schema = 2\n") && text.contains("terms(true)"), "{text}");
@@ -242,6 +249,11 @@ const BEYOND_CASES: &[(&str, &str, &str)] = &[
     ("0.25]", "0.36]", "[covariance] rows: holds a sigma of 0.6 for accel_lever_arm.r_x, which is 0.5 beside it"),
     ("-1e-3", "-1.0", "[covariance] rows: holds -1 for \"accel_lever_arm.r_x\", \"gyro.scale.z\", which cannot be"),
     ("0.25", "0.0", "which cannot be"),
+    ("shifts = [[0.15, 0, 0.0], [0.0, -0.3, 1e-3]]", "", "[covariance] shifts: missing, expected a list of rows of numbers"),
+    ("[0.15, 0, 0.0], ", "", "[covariance] shifts: has 1 rows for 2 references"),
+    ("0.15, 0,", "0.15,", "[covariance] shifts: has 2 numbers for 3 ids"),
+    ("0.15", "\"a\"", "[covariance] shifts: "),
+    ("0.15", "0.21", "[covariance] shifts: holds 0.21 for gyro.scale.z, which is beyond its sigma"),
 ];
 
 #[test]

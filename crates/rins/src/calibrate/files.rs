@@ -1,6 +1,6 @@
 //! What a calibration leaves for other programs: the errors to undo, the model, and how to undo them.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use rins_estimation::Fit;
 use rins_io::{Covariance, ModelFile, Parameter};
 use rins_terms::catalogue::REFERENCE_TEMPERATURE;
@@ -88,7 +88,7 @@ fn calibration(certificate: &Certificate, run: usize) -> rins_io::Calibration {
         range: covered(
             certificate.runs.iter().flat_map(|run| run.prepared.rests()).map(|run| &*run.recording),
         ),
-        covariance: covariance(fit, &places),
+        covariance: covariance(certificate, &places),
         priors: places.iter().filter_map(|&place| prior(fit, place, &sigmas)).collect(),
         measured: measured_together(
             &certificate
@@ -112,7 +112,8 @@ fn prior(fit: &Fit, place: usize, sigmas: &[Parameter]) -> Option<Parameter> {
     Some(Parameter { value: of.sigma / of.unit.factor, ..known.clone() })
 }
 
-fn covariance(fit: &Fit, places: &[usize]) -> Option<Covariance> {
+fn covariance(certificate: &Certificate, places: &[usize]) -> Option<Covariance> {
+    let Certificate { fit, contributions, .. } = certificate;
     let of = |place: usize| &fit.parameters[places[place]];
     let n = places.len();
     let unit = |place: usize| of(place).parameter.unit.factor;
@@ -121,6 +122,13 @@ fn covariance(fit: &Fit, places: &[usize]) -> Option<Covariance> {
         matrix: DMatrix::from_fn(n, n, |row, column| {
             fit.covariance[(places[row], places[column])] / (unit(row) * unit(column))
         }),
+        references: contributions
+            .iter()
+            .map(|one| {
+                let shift = |place: usize, _| one.moves[places[place]] / unit(place);
+                (one.reference.key().into(), DVector::from_fn(n, shift))
+            })
+            .collect(),
     })
 }
 

@@ -7,13 +7,14 @@ mod result;
 use std::path::Path;
 
 use nalgebra::{DMatrix, DVector};
-use rins_io::{Calibration, InputFile, parameters, shown};
+use rins_io::{Calibration, Covariance, InputFile, parameters, shown};
 use rins_terms::Role;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 pub use self::result::{ChangeResult, CompareResult, TogetherResult};
 use crate::basis::BasisResult;
 use crate::error::Result;
+use crate::references::IndependentCovariances;
 
 /// The change of one parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub(crate) struct Moved {
     pub(crate) values: [f64; 2],
     /// Their 1σ.
     pub(crate) sigmas: [f64; 2],
+    /// The 1σ of the change, in the unit of the parameter.
+    pub(crate) sigma: f64,
 }
 
 impl Moved {
@@ -32,14 +35,9 @@ impl Moved {
         self.values[1] - self.values[0]
     }
 
-    /// The 1σ of the change.
-    pub(crate) fn sigma(&self) -> f64 {
-        self.sigmas[0].hypot(self.sigmas[1])
-    }
-
     /// The change in sigmas.
     pub(crate) fn sigmas_moved(&self) -> f64 {
-        self.difference() / self.sigma()
+        self.difference() / self.sigma
     }
 }
 
@@ -134,9 +132,8 @@ fn estimated(calibration: &Calibration) -> Vec<Estimated> {
 
 impl Comparison {
     fn of(of: [&Calibration; 2], names: [String; 2], basis: BasisResult) -> Self {
-        let [before, after] = of;
         let lists = of.map(estimated);
-        let moved: Vec<Moved> = lists[0]
+        let mut moved: Vec<Moved> = lists[0]
             .iter()
             .filter_map(|a| {
                 let b = lists[1].iter().find(|b| b.id == a.id)?;
@@ -145,26 +142,34 @@ impl Comparison {
                     unit: a.unit,
                     values: [a.value, b.value],
                     sigmas: [a.sigma, b.sigma],
+                    sigma: 0.0,
                 })
             })
             .collect();
+        let independent = IndependentCovariances::of(&of);
+        let [before, after] =
+            [0, 1].map(|which| covariance(&moved, independent.each[which].as_ref(), which));
+        let covariance = before + after;
+        for (place, one) in moved.iter_mut().enumerate() {
+            one.sigma = covariance[(place, place)].sqrt();
+        }
         let only = |list: &[Estimated]| -> Vec<String> {
             let alone = list.iter().filter(|a| !moved.iter().any(|both| both.id == a.id));
             alone.map(|a| a.id.clone()).collect()
         };
         let only = [only(&lists[0]), only(&lists[1])];
-        let together = together(&moved, before, after);
+        let together = together(&moved, &covariance);
+        let basis = basis.assuming(independent.assumption);
         Self { names, moved, together, only, basis }
     }
 }
 
-/// The χ² of all changes with the sum of both covariances.
-fn together(moved: &[Moved], before: &Calibration, after: &Calibration) -> Option<Together> {
+/// The χ² of all changes with their covariance.
+fn together(moved: &[Moved], covariance: &DMatrix<f64>) -> Option<Together> {
     let n = moved.len();
-    let covariance = covariance(moved, before, 0) + covariance(moved, after, 1);
     // Each parameter is scaled by its sigma, so that different units do not degrade the condition of the matrix.
     let correlation = DMatrix::from_fn(n, n, |row, column| {
-        covariance[(row, column)] / (moved[row].sigma() * moved[column].sigma())
+        covariance[(row, column)] / (moved[row].sigma * moved[column].sigma)
     });
     let off = DVector::from_fn(n, |row, _| moved[row].sigmas_moved());
     let chi_square = off.dot(&correlation.cholesky()?.solve(&off));
@@ -173,8 +178,7 @@ fn together(moved: &[Moved], before: &Calibration, after: &Calibration) -> Optio
 }
 
 /// The covariance of the common parameters by one calibration; diagonal, from the sigmas, if it has no covariance.
-fn covariance(moved: &[Moved], calibration: &Calibration, which: usize) -> DMatrix<f64> {
-    let known = calibration.covariance.as_ref();
+fn covariance(moved: &[Moved], known: Option<&Covariance>, which: usize) -> DMatrix<f64> {
     let place = |id: &str| known.and_then(|known| known.ids.iter().position(|other| other == id));
     DMatrix::from_fn(moved.len(), moved.len(), |row, column| {
         match (known, place(&moved[row].id), place(&moved[column].id)) {

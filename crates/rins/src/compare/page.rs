@@ -30,12 +30,15 @@ pub(super) fn comparison_text(comparison: &Comparison) -> String {
             figure(moved.values[0], 4),
             figure(moved.values[1], 4),
             figure(moved.difference(), 4),
-            figure(moved.sigma(), 4),
+            figure(moved.sigma, 4),
             format!("{:+.1}", moved.sigmas_moved()),
             moved.unit.into(),
         ]
     }));
     text.push_str(&aligned(&rows));
+    for assumption in &comparison.basis.assumptions {
+        let _ = write!(text, "\n  {assumption}\n");
+    }
     text
 }
 
@@ -93,7 +96,7 @@ pub(super) fn comparison_report(comparison: &Comparison) -> Report {
             Cell::text(&moved.id),
             Cell::Estimate { value: moved.values[0], sigma: moved.sigmas[0] },
             Cell::Estimate { value: moved.values[1], sigma: moved.sigmas[1] },
-            Cell::Estimate { value: moved.difference(), sigma: moved.sigma() },
+            Cell::Estimate { value: moved.difference(), sigma: moved.sigma },
             Cell::text(moved.unit),
             Cell::Number { value: off, decimals: 1 },
             Cell::Bar { value: off / 10.0, sigma: 0.1 },

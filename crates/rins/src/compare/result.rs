@@ -72,7 +72,7 @@ impl From<&Comparison> for CompareResult {
                 before: estimate(0),
                 after: estimate(1),
                 difference: moved.difference(),
-                sigma: moved.sigma(),
+                sigma: moved.sigma,
                 sigmas: moved.sigmas_moved(),
             }
         });

@@ -3,7 +3,7 @@
 use anyhow::Context;
 use nalgebra::{DMatrix, DVector};
 use rins_history::{Conditions, History, Quantity, RunEstimate};
-use rins_io::{Calibration, Measured, Parameter, parameters};
+use rins_io::{Calibration, Covariance, Measured, Parameter, parameters};
 
 use super::source::Source;
 use crate::homogeneity::conditions;
@@ -45,14 +45,20 @@ impl Observed {
         Self { ids, units }
     }
 
-    /// The history of these parameters.
-    pub(super) fn history(&self, sources: &[Source]) -> anyhow::Result<History> {
+    /// The history of these parameters, by the covariances of the runs that are independent of each other.
+    pub(super) fn history(
+        &self,
+        sources: &[Source],
+        covariances: &[Option<Covariance>],
+    ) -> anyhow::Result<History> {
         let measured: Vec<Measured> =
             sources.iter().map(|source| source.calibration.measured.clone()).collect();
         let conditions = conditions(&measured);
-        let runs = sources.iter().zip(&conditions);
-        let runs = runs.map(|(source, conditions)| {
-            self.estimate(&source.calibration, *conditions).with_context(|| source.name.clone())
+        let runs = sources.iter().zip(covariances).zip(&conditions);
+        let runs = runs.map(|((source, covariance), conditions)| {
+            let covariance = covariance.as_ref();
+            self.estimate(&source.calibration, covariance, *conditions)
+                .with_context(|| source.name.clone())
         });
         let typical = |id: &String| {
             let each = || sources.iter().map(|source| &source.calibration);
@@ -69,13 +75,13 @@ impl Observed {
     fn estimate(
         &self,
         calibration: &Calibration,
+        covariance: Option<&Covariance>,
         conditions: Conditions,
     ) -> anyhow::Result<RunEstimate> {
         let all = parameters(&calibration.error);
         let own: Vec<usize> = (0..self.ids.len())
             .filter(|&place| sigma(&calibration.sigmas, &self.ids[place]).is_some())
             .collect();
-        let covariance = calibration.covariance.as_ref();
         let of = |row: usize, column: usize| {
             let [a, b] = [row, column].map(|at| &self.ids[own[at]]);
             let stated = covariance.and_then(|covariance| {

@@ -10,6 +10,7 @@ mod text;
 use std::path::PathBuf;
 
 use rins_history::{Conditions, Explanation, Forecast, History, Past, baselines};
+use rins_io::Calibration;
 
 use self::estimates::Observed;
 pub use self::result::{
@@ -22,6 +23,7 @@ use crate::error::Result;
 use crate::homogeneity::RunComparison;
 use crate::log::DAY;
 use crate::progress::Progress;
+use crate::references::IndependentCovariances;
 
 /// A run is predicted from the runs before it if these are as many.
 const FEWEST_BEFORE: usize = 3;
@@ -108,8 +110,11 @@ fn of_paths(paths: &[PathBuf], options: &HistoryOptions) -> anyhow::Result<RunHi
         "no parameter of bias, scale error or misalignment is observed by two of the runs"
     );
     let stage = options.progress.begin("comparing hypotheses", None);
-    let history = observed.history(&sources)?;
-    let mut remarks = Vec::new();
+    let calibrations: Vec<&Calibration> =
+        sources.iter().map(|source| &source.calibration).collect();
+    let independent = IndependentCovariances::of(&calibrations);
+    let history = observed.history(&sources, &independent.each)?;
+    let mut remarks: Vec<String> = independent.assumption.into_iter().collect();
     if !dated {
         remarks.push(
             "Not every run has a date ([run] started in its rig file): the runs are in the order in which they were given, and no drift \

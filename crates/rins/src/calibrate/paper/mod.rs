@@ -151,6 +151,7 @@ fn covariance(calibration: &Calibration) -> Covariance {
         matrix: DMatrix::from_fn(parameters.len(), parameters.len(), |row, column| {
             calibration.correlation[(row, column)] * sigma(row) * sigma(column)
         }),
+        references: Vec::new(),
     }
 }
 
