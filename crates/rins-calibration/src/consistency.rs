@@ -15,7 +15,8 @@ pub struct Consistency {
     pub nis_dof: f64,
     /// The p-value of the mean NIS (two-sided).
     pub nis_p: f64,
-    /// The p-value of the whiteness test, without the channels whose noise is overstated.
+    /// The p-value of the whiteness test. A channel whose RMS is less than 1 is colored only if its spectral density is above 1 in a
+    /// band of frequencies: overstated noise colors innovations without that.
     pub whiteness_p: f64,
     /// The RMS of the whitened innovation of each channel; 1 if the model is correct.
     pub channel_rms: [f64; MEASUREMENTS],
@@ -33,10 +34,6 @@ pub enum Verdict {
     /// The innovations are too large or colored: there are unmodeled effects, and the sigmas are too small.
     Misfit,
 }
-
-/// The RMS of whitened innovations below which a channel is not tested for whiteness: a filter with overstated noise colors
-/// its innovations.
-const OVERSTATED: f64 = 0.8;
 
 impl Consistency {
     /// The p-value below which a test rejects the model.
@@ -72,9 +69,10 @@ impl Consistency {
             channel_rms[channel] = (square / series.len() as f64).sqrt();
             let (largest, p) = cumulative_periodogram(series);
             distance[channel] = largest;
-            if channel_rms[channel] > OVERSTATED {
-                least_p = least_p.min(p);
-            }
+            // Overstated noise colors innovations, too; their spectral density is then nowhere above one.
+            let is_small = channel_rms[channel] < 1.0;
+            let p = if is_small { p.max(excess(series)) } else { p };
+            least_p = least_p.min(p);
         }
         Some(Self {
             nis_mean: sum / count,
@@ -108,14 +106,45 @@ impl Consistency {
     }
 }
 
+/// The periodogram from frequency zero on: 1 in the mean for white noise of unit variance.
+fn periodogram(series: &[f64]) -> Vec<f64> {
+    let mut spectrum: Vec<Complex<f64>> = series.iter().map(|&x| Complex::new(x, 0.0)).collect();
+    FftPlanner::new().plan_fft_forward(spectrum.len()).process(&mut spectrum);
+    let count = series.len() as f64;
+    spectrum[..series.len() / 2].iter().map(|line| line.norm_sqr() / count).collect()
+}
+
+/// The p-value of the hypothesis that the spectral density is nowhere above 1.
+///
+/// The largest sum of (periodogram - 1) over a band is, for white noise of unit variance, the largest rise of a Brownian motion above its
+/// past minimum. This has the distribution of the largest distance of a Brownian motion from zero (Lévy's theorem).
+fn excess(series: &[f64]) -> f64 {
+    let power = periodogram(series);
+    let (mut rise, mut largest) = (0.0_f64, 0.0_f64);
+    for power in &power {
+        rise = (rise + power - 1.0).max(0.0);
+        largest = largest.max(rise);
+    }
+    brownian_maximum(largest / (power.len() as f64).sqrt())
+}
+
+/// The probability that a Brownian motion is farther than `x` from zero within unit time.
+fn brownian_maximum(x: f64) -> f64 {
+    // Below this the probability is 1 to five digits and the series converges slowly.
+    if x < 0.3 {
+        return 1.0;
+    }
+    let tail = |x: f64| 0.5 * erfc(x / std::f64::consts::SQRT_2);
+    let term = |k: u32| f64::from(1 - 2 * (k as i32 % 2)) * tail(f64::from(2 * k + 1) * x);
+    (4.0 * (0..50).map(term).sum::<f64>()).clamp(0.0, 1.0)
+}
+
 /// Bartlett's test: the largest distance of the normalized cumulative periodogram from that of white noise, and its p-value
 /// (Kolmogorov's distribution).
 ///
 /// The mean is included as the lowest frequency, since a constant innovation is not noise either.
 fn cumulative_periodogram(series: &[f64]) -> (f64, f64) {
-    let mut spectrum: Vec<Complex<f64>> = series.iter().map(|&x| Complex::new(x, 0.0)).collect();
-    FftPlanner::new().plan_fft_forward(spectrum.len()).process(&mut spectrum);
-    let power: Vec<f64> = spectrum[..spectrum.len() / 2].iter().map(Complex::norm_sqr).collect();
+    let power = periodogram(series);
     let total: f64 = power.iter().sum();
     if total <= 0.0 {
         return (1.0, 0.0);
@@ -232,21 +261,62 @@ mod tests {
         assert_eq!(verdict(|_, innovation| innovation[1] += 0.5), Verdict::Misfit);
     }
 
-    /// A filter with overstated noise colors its innovations: small innovations are not a misfit because of their color,
-    /// those of nearly the stated size are.
+    /// The innovations of a filter of a random walk for its position, in all channels: measurements have the variance `part` of that
+    /// which the filter assumes, the position moves by `step` per sample, and `line` is added to the measurements.
+    fn filtered(seed: u128, part: f64, step: f64, line: f64) -> Innovations {
+        let mut random = Pcg64::new(9, seed);
+        let mut draw = move || -> f64 { StandardNormal.sample(&mut random) };
+        let mut channels = [(0.0_f64, 0.0_f64, 1.0_f64); MEASUREMENTS];
+        let mut sample = |index: usize| {
+            SVector::from_fn(|channel, _| {
+                let (position, estimate, variance) = &mut channels[channel];
+                *position += step * draw();
+                *variance += step * step;
+                let added = line * (0.05 * index as f64).sin();
+                let innovation = *position + added + part.sqrt() * draw() - *estimate;
+                let sum = *variance + 1.0;
+                *estimate += *variance / sum * innovation;
+                *variance /= sum;
+                innovation / sum.sqrt()
+            })
+        };
+        (0..2000).map(&mut sample).collect()
+    }
+
+    /// A filter with overstated noise colors its innovations: that is no misfit, however much it is overstated. An effect above the
+    /// stated noise is one.
     #[test]
-    fn colour_of_innovations_that_are_too_small_is_no_misfit() {
-        for (size, verdict) in [(0.5, Verdict::NoiseOverstated), (0.9, Verdict::Misfit)] {
-            let mut innovations = white(5);
-            for (index, innovation) in innovations.iter_mut().enumerate() {
-                // A spectral line of unit power.
-                innovation[4] = size * std::f64::consts::SQRT_2 * (0.02 * index as f64).sin();
+    fn color_by_overstated_noise_is_no_misfit_and_a_line_is() {
+        let verdicts = |part: f64, line: f64| -> [usize; 3] {
+            let mut counts = [0; 3];
+            for seed in 0..60 {
+                let step = [0.01, 0.1, 1.0][seed as usize % 3];
+                let innovations = filtered(seed, part, step, line);
+                let verdict = Consistency::of(&innovations).unwrap().verdict();
+                counts[verdict as usize] += 1;
             }
-            let consistency = Consistency::of(&innovations).unwrap();
-            assert_close!(consistency.channel_rms[4], size, 0.02);
-            assert!(consistency.periodogram_distance[4] > 0.9, "{consistency:?}");
-            assert_eq!(consistency.verdict(), verdict, "{consistency:?}");
+            counts
+        };
+        let exact = verdicts(1.0, 0.0);
+        assert!(exact[0] >= 56, "{exact:?}");
+        for part in [0.03, 0.3, 0.7, 0.9] {
+            let small = verdicts(part, 0.0);
+            assert!(small[2] <= 3, "{part}: {small:?}");
+            assert!(part > 0.8 || small[1] >= 38, "{part}: {small:?}");
         }
+        for part in [0.03, 0.7, 1.0] {
+            let spoilt = verdicts(part, 2.0);
+            assert!(spoilt[2] >= 38, "{part}: {spoilt:?}");
+        }
+    }
+
+    #[test]
+    fn brownian_maximum_has_its_known_points() {
+        // Twice the upper 0.5 % and 2.5 % points of the normal distribution are nearly those of the one-sided maximum.
+        for (x, p) in [(2.241_403, 0.05), (2.807_034, 0.01), (1.0, 0.629_2)] {
+            assert_close!(brownian_maximum(x), p, 2e-4);
+        }
+        assert_close!(brownian_maximum(0.301), 1.0, 1e-4);
     }
 
     /// All power is at the `k`th of `n` frequencies: the step of the cumulative periodogram is `k/n` above the line of white

@@ -8,7 +8,7 @@ use rins_imu::ImuError;
 use rins_io::{
     Calibration, Converted, InputFile, Loaded, LogFile, Overwrite, convert_changed, shown,
 };
-use rins_terms::{Model, Surroundings, compensated};
+use rins_terms::{Model, Surroundings, TermInstance, compensated};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -123,7 +123,8 @@ fn applied(rig: &Path, options: ApplyOptions) -> anyhow::Result<Applied> {
     })?;
     let triads = Model::from(&calibration.error);
     let terms = triads.terms.iter().chain(&calibration.terms.terms);
-    let undone = terms.map(|chosen| chosen.term.id).collect();
+    let is_undone = |chosen: &&TermInstance| chosen.values.iter().any(|value| *value != 0.0);
+    let undone = terms.filter(is_undone).map(|chosen| chosen.term.id).collect();
     let basis = basis_of(&converted)?.with_files([InputFile::of(file)?]);
     Ok(Applied { rig: shown(rig), format, undone, beyond: found, converted, basis, options })
 }
@@ -163,7 +164,7 @@ impl fmt::Display for Applied {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "Compensated {} by {}\n  {} samples to {} as {}, read by {}\n  undone: {}",
+            "Compensated {} by {}\n  {} samples to {} as {}, read by {}\n  compensated: {}",
             self.rig,
             shown(&self.options.calibration),
             self.converted.samples,

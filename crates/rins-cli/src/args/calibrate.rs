@@ -15,7 +15,7 @@ pub(crate) struct Calibrate {
     /// The rig files: one, or several runs of one IMU
     #[arg(required = true, value_name = "RIG")]
     pub(crate) rigs: Vec<PathBuf>,
-    /// Folder for result.json, report.html, calibration.toml and model.toml
+    /// Folder for result.json and report.html, and without --live calibration.toml and model.toml
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
     /// The model: paper12 (`M_xz`, `M_yz` and `S_z` by the 12-state filter of Nie et al. (2019)), full (biases, scale errors,

@@ -118,9 +118,9 @@ pub struct DepartureResult {
     pub value: f64,
     /// What was expected.
     pub expected: f64,
-    /// The 1σ of the difference.
+    /// The 1σ of the prior; for noise the 1σ of its logarithm times the stated value.
     pub sigma: f64,
-    /// The difference in sigmas.
+    /// The departure in units of its standard deviation from prior and data; for noise, that of the logarithm.
     pub sigmas: f64,
     /// The unit.
     pub unit: String,

@@ -85,11 +85,11 @@ impl<'a> Scored<'a> {
 
 fn verdict(statistics: &Statistics) -> (Tone, &'static str) {
     if statistics.is_honest() {
-        (Tone::Good, "as claimed")
+        (Tone::Good, "consistent with their sigmas")
     } else if statistics.nees > statistics.nees_bounds[1] {
-        (Tone::Bad, "larger than claimed")
+        (Tone::Bad, "larger than their sigmas state")
     } else {
-        (Tone::Warning, "smaller than claimed")
+        (Tone::Warning, "smaller than their sigmas state")
     }
 }
 
@@ -114,7 +114,7 @@ fn text(heading: &Heading, scored: &[Scored<'_>], title: &str) -> String {
         for ((id, (unit, _)), scatter) in PARAMETERS.iter().zip(UNITS).zip(&statistics.parameters) {
             let _ = writeln!(
                 text,
-                "    {id:22} mean error {:+.5} {unit}, spread {:.5}, claimed {:.5}, 95 % intervals hold {:.1} %",
+                "    {id:22} mean error {:+.5} {unit}, standard deviation {:.5}, RMS sigma {:.5}, coverage of 95 % intervals {:.1} %",
                 scatter.mean_error,
                 scatter.spread,
                 scatter.claimed,
@@ -200,7 +200,7 @@ fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
     let unit = UNITS[row].0;
     let mut points = Series { name: "a run".into(), style: Style::Points, ..Series::default() };
     let (mut claimed, mut spread) = (
-        Series { name: "claimed 1σ".into(), style: Style::Steps, ..Series::default() },
+        Series { name: "RMS sigma".into(), style: Style::Steps, ..Series::default() },
         Series { name: "spread of the runs".into(), style: Style::Points, ..Series::default() },
     );
     for (place, cell) in scored.iter().enumerate() {
@@ -223,7 +223,7 @@ fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
         intro: "Where covariances are consistent, one run in 20 lies beyond ±1.96.".into(),
         items: vec![
             Item::Plot(Plot {
-                title: "Errors over the sigma claimed".into(),
+                title: "Errors over their sigmas".into(),
                 x_label: x_label.into(),
                 y_label: "Error / σ".into(),
                 series: vec![points],
@@ -231,7 +231,7 @@ fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
                 ..Plot::default()
             }),
             Item::Plot(Plot {
-                title: "Sigma claimed and spread found".into(),
+                title: "RMS sigma and standard deviation of the errors".into(),
                 x_label: x_label.into(),
                 y_label: format!("1σ [{unit}]"),
                 series: vec![claimed, spread],

@@ -94,7 +94,7 @@ pub struct ScatterResult {
     pub mean_error: f64,
     /// The standard deviation of the errors.
     pub error_std: f64,
-    /// The root mean square of the sigmas claimed.
+    /// The root mean square of the reported sigmas.
     pub sigma_rms: f64,
     /// The share of the 95 % intervals that hold the true value.
     pub coverage_95: f64,

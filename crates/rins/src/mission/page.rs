@@ -78,7 +78,7 @@ type ColumnOf = (&'static str, fn(&SchemeResult) -> Option<&Vec<f64>>);
 const COLUMNS: [ColumnOf; 9] = [
     ("east", |scheme| scheme.east_nmi.as_ref()),
     ("north", |scheme| scheme.north_nmi.as_ref()),
-    ("law, east", |scheme| scheme.law_nmi.as_ref()),
+    ("secular, east", |scheme| scheme.law_nmi.as_ref()),
     ("CEP50", |scheme| scheme.cep50_nmi.as_ref()),
     ("CEP95", |scheme| scheme.cep95_nmi.as_ref()),
     ("TRMS", |scheme| scheme.trms_nmi.as_ref()),
@@ -156,7 +156,7 @@ fn want_words(want: &WantResult) -> String {
         .unwrap_or_default();
     format!(
         "{wanted} is held by the standard deviations asked for ({} nmi{simulated}; present {} nmi; noise and initial attitude {fixed} nmi). \
-         `rins design SCENARIO --goal position@{}h` finds the calibration schedule.",
+         `rins design SCENARIO --for position@{}h` finds the calibration schedule.",
         figure(want.reached_nmi, 3),
         figure(want.present_nmi, 3),
         want.hours

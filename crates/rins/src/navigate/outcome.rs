@@ -58,7 +58,7 @@ impl Navigation<'_> {
         ))
         .chain(self.runs.iter().map(|(name, run)| {
             format!(
-                "{name}: {:.3} m/s and {:.1} m off at the end.",
+                "{name}: velocity error {:.3} m/s and position error {:.1} m at the end.",
                 run.velocity.norm(),
                 run.position_error.norm()
             )

@@ -30,6 +30,7 @@ A retained parameter that is combined with others is reported as the sum only, s
 `gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`. A remaining parameter is reported as the sum that the data determine
 best. A gauge, a combination of parameters that amounts to a choice of axes, units or origins, is unobservable under every
 schedule and is named. A calibration reports the observability of its run in the same terms, with the estimated noise.
+It leaves prior-dominated parameters at their prior means and reports the sigmas that follow from this, which are larger than those here.
 
 ## JSON
 

@@ -59,13 +59,13 @@ fn summary(calibration: &Calibration) -> Vec<String> {
     let combined = calibration.parameters.iter().filter(|p| !p.identifiable()).count();
     if combined > 0 {
         let which = if combined == calibration.parameters.len() {
-            "any of the parameters".to_owned()
+            "each parameter".to_owned()
         } else {
             format!("{combined} of the {} parameters", calibration.parameters.len())
         };
         sentences.push(format!(
-            "This schedule leaves gyro bias in {which}: what is estimated, and what compensating it undoes \
-             at this rate, is the combination. Turn as long backwards as forwards to keep it out.",
+            "Under this schedule {which} cannot be separated from a gyro bias: the estimate is their combination, and its compensation \
+             holds at this rate only. A run with equal times in both directions separates them.",
         ));
     }
     if calibration.attitude_source == AttitudeSource::Aligned {
