@@ -260,12 +260,16 @@ impl<'a> Problem<'a> {
             Until::Approximate | Until::Converged => iterations.len() + MOST_ITERATIONS,
         };
         self.about.fill(0.0);
+        let stated = noise.first().map_or(1.0, |noise| noise.imu.accel.white);
         let mut visited = Vec::new();
         loop {
             let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
             let from = self.pieces;
             let squares = evidence.square + self.pull();
             visited.push(Place { squares, values: self.values.clone() });
+            // The iteration scales all noise alike.
+            let scaled = noise.first().map_or(1.0, |noise| noise.imu.accel.white) / stated;
+            let misfit = scaled * (evidence.square / evidence.figures as f64).sqrt();
             if until == Until::NearEnough {
                 calm(noise, &evidence, &posterior);
                 if !iterations.is_empty() {
@@ -309,6 +313,7 @@ impl<'a> Problem<'a> {
                     distance,
                     iterations: iterations.len(),
                     step,
+                    misfit,
                 });
             }
         }

@@ -33,8 +33,9 @@ pub enum FitError {
     },
     /// The iteration did not converge.
     #[error(
-        "not converged after {iterations} iterations (last step {step:.1} sigma); {parameter} is {distance:.0} sigma from its prior: \
-         the model does not describe these data, or a prior sigma is too small"
+        "not converged after {iterations} iterations (last step {step:.1} sigma): the innovations are {misfit:.1} times as large as the \
+         stated noise, and the parameter farthest from its prior is {parameter} ({distance:.0} sigma); the model does not describe these \
+         data, or a stated sigma is too small"
     )]
     Diverged {
         /// The id of the parameter that is farthest from its prior.
@@ -45,5 +46,7 @@ pub enum FitError {
         iterations: usize,
         /// The largest component of the last step, in sigmas.
         step: f64,
+        /// The root mean square of the innovations, in units of the stated noise.
+        misfit: f64,
     },
 }
