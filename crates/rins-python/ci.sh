@@ -36,7 +36,8 @@ pip install -r "$package/tests/requirements.txt"
 step "pytest"
 "$bin/python" -m pytest "$package/tests"
 
-step "mypy, stubtest"
+step "mypy, stubtest, page of the book"
+"$bin/python" "$package/api_page.py" --check
 "$bin/python" -m mypy "$package/python/rins"
 MYPYPATH="$package/tests" "$bin/python" -m mypy "$package/tests"
 # Outside the sources, so that the installed package is compared.

@@ -66,6 +66,30 @@ fn help_is_as_it_was_read_last() {
     }
 }
 
+/// The page of the book with all commands and options, from the same texts.
+fn page() -> String {
+    let mut page = String::from(
+        "# All commands and options\n\n`rins COMMAND --help` prints these texts. The page is generated from them.\n",
+    );
+    for command in COMMANDS {
+        let name = if command.is_empty() { "rins".into() } else { format!("rins {command}") };
+        let text = fs::read_to_string(snapshot(command)).unwrap();
+        page.push_str(&format!("\n## `{name}`\n\n```text\n{}\n```\n", text.trim_end()));
+    }
+    page
+}
+
+#[test]
+fn the_page_of_commands_has_the_help_of_each() {
+    let path = rins_tests::workspace().join("docs/src/commands.md");
+    if std::env::var_os("RINS_RENEW").is_some() {
+        help_is_as_it_was_read_last();
+        fs::write(&path, page()).unwrap();
+    }
+    let kept = fs::read_to_string(&path).unwrap_or_default();
+    assert!(kept == page(), "{} is old; see help.rs", path.display());
+}
+
 /// The list of commands in `rins --help` is the same as that of this test.
 #[test]
 fn help_of_every_command_is_kept() {

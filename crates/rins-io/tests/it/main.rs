@@ -23,6 +23,7 @@ mod model;
 mod output;
 mod preamble;
 mod rig;
+mod rig_page;
 mod round_trip;
 mod rows;
 mod scenario;

@@ -996,10 +996,11 @@ class DepartureResult(TypedDict):
     """The parameter, or `gyro.noise` or `accel.noise`."""
 
     sigma: float
-    """The 1σ of the difference."""
+    """The 1σ of the prior; for noise the 1σ of its logarithm times the stated value."""
 
     sigmas: float
-    """The difference in sigmas."""
+    """The departure in units of its standard deviation from prior and data; for noise, that of
+    the logarithm."""
 
     unit: str
     """The unit."""
@@ -2421,7 +2422,7 @@ class ScatterResult(TypedDict):
     """The calibration of its posterior; of a model only."""
 
     sigma_rms: float
-    """The root mean square of the sigmas claimed."""
+    """The root mean square of the reported sigmas."""
 
     truth: float
     """The true value; the mean of the true values, if each run has its own."""
