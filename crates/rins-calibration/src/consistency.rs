@@ -135,7 +135,7 @@ fn brownian_maximum(x: f64) -> f64 {
         return 1.0;
     }
     let tail = |x: f64| 0.5 * erfc(x / std::f64::consts::SQRT_2);
-    let term = |k: u32| f64::from(1 - 2 * (k as i32 % 2)) * tail(f64::from(2 * k + 1) * x);
+    let term = |k: i32| f64::from(1 - 2 * (k % 2)) * tail(f64::from(2 * k + 1) * x);
     (4.0 * (0..50).map(term).sum::<f64>()).clamp(0.0, 1.0)
 }
 

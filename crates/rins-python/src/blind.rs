@@ -12,7 +12,7 @@ use crate::error::argument;
 /// Which trials are run, and how.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub(crate) struct Trials {
+pub(crate) struct BlindOptions {
     program: PathBuf,
     population: String,
     seed: u64,
@@ -43,8 +43,8 @@ fn failed(error: &Trouble) -> PyErr {
 
 /// Runs the trials of a shard that its journal lacks, one after the other.
 #[pyfunction]
-pub(crate) fn blind_trials(py: Python<'_>, trials: Trials) -> PyResult<()> {
-    let Trials { program, population, seed, trials, shard, threads, journal } = trials;
+pub(crate) fn blind_trials(py: Python<'_>, options: BlindOptions) -> PyResult<()> {
+    let BlindOptions { program, population, seed, trials, shard, threads, journal } = options;
     let population = self::population(&population)?;
     let plan = Plan { population, seed, trials, threads: 1, shard };
     let done = Call::new(None).run(py, move |_| {
@@ -62,7 +62,7 @@ pub(crate) fn blind_page(
     population: &str,
 ) -> PyResult<String> {
     let population = self::population(population)?;
-    let page = py.detach(|| {
+    let page = py.detach(move || {
         let journals: Vec<_> = journals.iter().map(PathBuf::as_path).collect();
         rins_trials::merge(&journals, &merged)?;
         let records = rins_trials::records(&merged)?;

@@ -69,16 +69,19 @@ impl LiveCalibration {
         let choice = ModelChoice::parse(&model)
             .map_err(|expected| argument("model", format!("{model:?}, {expected}")))?;
         let options = LiveOptions { model: choice, duration, start };
-        let source = source.as_deref();
-        let live = py.detach(|| match &checkpoint {
-            None => rins::live::LiveCalibration::new(&rig, source, options),
-            Some(file) => rins::live::LiveCalibration::resume(&rig, source, options, file),
+        let live = py.detach(move || match &checkpoint {
+            None => rins::live::LiveCalibration::new(&rig, source.as_deref(), options),
+            Some(file) => {
+                let source = source.as_deref();
+                rins::live::LiveCalibration::resume(&rig, source, options, file)
+            }
         });
         let live = live.map_err(|error| exception(py, &error, Some(&model)))?;
         Ok(Self { live: Mutex::new(Some(live)), model })
     }
 
     /// Takes the next bytes of the log; returns the number of samples that they complete.
+    #[expect(clippy::needless_pass_by_value, reason = "a reference is no argument for Python")]
     fn feed(&self, py: Python<'_>, data: PyBackedBytes) -> PyResult<usize> {
         let mut samples = self.with(py, |_| Ok(0))?;
         for portion in data.chunks(PORTION) {
@@ -109,7 +112,7 @@ impl LiveCalibration {
 
     /// Writes the state to a file; returns whether there is a state yet.
     fn write_checkpoint(&self, py: Python<'_>, path: PathBuf) -> PyResult<bool> {
-        self.with(py, |live| live.write_checkpoint(&path))
+        self.with(py, move |live| live.write_checkpoint(&path))
     }
 
     /// Ends the calibration with the rows that are there.

@@ -3,6 +3,7 @@
 //! After an intended change, `RINS_RENEW=1 cargo test -p rins-tests help` writes it again; read
 //! the difference before it is committed.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -74,7 +75,8 @@ fn page() -> String {
     for command in COMMANDS {
         let name = if command.is_empty() { "rins".into() } else { format!("rins {command}") };
         let text = fs::read_to_string(snapshot(command)).unwrap();
-        page.push_str(&format!("\n## `{name}`\n\n```text\n{}\n```\n", text.trim_end()));
+        // Writing to a string cannot fail.
+        let _ = write!(page, "\n## `{name}`\n\n```text\n{}\n```\n", text.trim_end());
     }
     page
 }

@@ -92,7 +92,9 @@ fn errors_of_a_reference_are_those_of_all_runs_with_it() {
         number(scale.unwrap(), "/p_value")
     };
     let of = |names: &[&str]| -> String {
-        names.iter().map(|name| format!("{name}/calibration.toml ")).collect()
+        let files: Vec<String> =
+            names.iter().map(|name| format!("{name}/calibration.toml")).collect();
+        files.join(" ")
     };
     assert!(homogeneity(&of(&["before", "same", "changed"])) < 1e-12);
     assert!(homogeneity(&of(&["before", "same", "faster"])) > 1e-3);

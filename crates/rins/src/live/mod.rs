@@ -165,10 +165,10 @@ impl LiveCalibration {
     /// the filter failed.
     pub fn feed(&mut self, bytes: &[u8]) -> Result<usize> {
         let recording = self.log.feed(bytes)?;
-        Ok(self.take(recording)?)
+        Ok(self.take(&recording)?)
     }
 
-    fn take(&mut self, recording: Recording) -> anyhow::Result<usize> {
+    fn take(&mut self, recording: &Recording) -> anyhow::Result<usize> {
         let count = recording.len();
         // The filter is prepared from the same samples however the bytes are divided.
         let mut first = 0;
@@ -191,7 +191,7 @@ impl LiveCalibration {
                 begun => begun?,
             }
         }
-        self.push(&recording, first)?;
+        self.push(recording, first)?;
         Ok(count)
     }
 
@@ -273,7 +273,7 @@ impl LiveCalibration {
     /// If the last rows cannot be read, or if there are too few.
     pub fn end(mut self, end: LiveEnd) -> Result<LiveOutcome> {
         let recording = self.log.end()?;
-        self.take(recording)?;
+        self.take(&recording)?;
         if self.filter.is_none() {
             self.begin()?;
         }

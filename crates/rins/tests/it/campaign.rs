@@ -190,8 +190,7 @@ fn true_values_of_the_scenario_are_those_of_every_run() {
 fn shards_of_a_model_file_in_different_folders_are_one_campaign() {
     let folders = [Folder::new(), Folder::new()];
     let terms = "[[term]]\nid = \"gyro.scale\"\nestimate = [\"z\"]\n";
-    let parts = [1, 2].map(|shard| {
-        let folder = &folders[shard as usize - 1];
+    let parts = [(1, &folders[0]), (2, &folders[1])].map(|(shard, folder)| {
         let options = MonteCarloOptions {
             model: folder.model("paper12", terms),
             shard: Some((shard, 2)),
