@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use rins::ModelChoice;
-use rins::live::{LiveEnd, LiveOptions};
+use rins::live::{LiveEnd, LiveOptions, LiveParameterResult};
 
 use crate::call::Call;
 use crate::error::{argument, exception};
@@ -15,6 +15,9 @@ use crate::outcome::Outcome;
 
 /// The number of bytes after which signals are looked at.
 const PORTION: usize = 1 << 14;
+
+/// The id, value, sigma, unit, prior sigma of a parameter, and whether it is identified.
+type Parameter = (String, f64, f64, String, f64, bool);
 
 /// The options of a live calibration.
 #[derive(FromPyObject)]
@@ -97,12 +100,13 @@ impl LiveCalibration {
         self.with(py, |live| Ok(live.filter().and_then(rins::estimation::OnlineFilter::time)))
     }
 
-    /// The estimates so far as JSON, once the samples at the start are there.
+    /// The estimates so far, once the samples at the start are there.
     #[getter]
-    fn parameters(&self, py: Python<'_>) -> PyResult<Option<String>> {
-        let parameters = self.with(py, |live| Ok(live.parameters()))?;
-        let written = parameters.as_ref().map(serde_json::to_string).transpose();
-        written.map_err(|error| PyRuntimeError::new_err(error.to_string()))
+    fn parameters(&self, py: Python<'_>) -> PyResult<Option<Vec<Parameter>>> {
+        let of = |one: LiveParameterResult| {
+            (one.id, one.value, one.sigma, one.unit, one.prior_sigma, one.identified)
+        };
+        self.with(py, |live| Ok(live.parameters().map(|all| all.into_iter().map(of).collect())))
     }
 
     /// The state in a line.

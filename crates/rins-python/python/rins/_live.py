@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from os import PathLike, fspath
 from typing import TYPE_CHECKING
 
@@ -101,11 +100,20 @@ class LiveCalibration:
     @property
     def parameters(self) -> list[schema.LiveParameterResult] | None:
         """The estimates so far; None as long as the samples at the start are incomplete."""
-        text = self._live.parameters
-        if text is None:
+        parameters = self._live.parameters
+        if parameters is None:
             return None
-        parameters: list[schema.LiveParameterResult] = json.loads(text)
-        return parameters
+        return [
+            {
+                "id": name,
+                "value": value,
+                "sigma": sigma,
+                "unit": unit,
+                "prior_sigma": prior_sigma,
+                "identified": identified,
+            }
+            for name, value, sigma, unit, prior_sigma, identified in parameters
+        ]
 
     def line(self) -> str:
         """The state in a line, as the command shows it."""
