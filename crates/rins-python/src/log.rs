@@ -125,8 +125,11 @@ impl Log {
 
     /// The inputs: paths and SHA-256.
     #[getter]
-    fn inputs(&self) -> Vec<(PathBuf, String)> {
-        self.log.inputs.iter().map(|file| (file.path.clone(), file.sha256.clone())).collect()
+    fn inputs(&self) -> Vec<(String, String)> {
+        let of = |file: &rins::io::InputFile| {
+            (file.path.to_string_lossy().into_owned(), file.sha256.clone())
+        };
+        self.log.inputs.iter().map(of).collect()
     }
 
     /// The repairs made while reading, one sentence each.

@@ -85,7 +85,7 @@ def test_recordings_are_compensated_as_the_file_is(columns: Columns, tmp_path: P
     slow = re.sub(r"(?m)^rate = .*$", 'rate = ["-1 deg/s", "1 deg/s"]', text)
     assert slow != text
     calibration.write_text(slow, encoding="utf-8")
-    with pytest.warns(UserWarning, match="outside"):
+    with pytest.warns(UserWarning, match="calibrated up to"):
         made.compensated(calibration)
     calibration.write_text("", encoding="utf-8")
     with pytest.raises(rins.DataError):

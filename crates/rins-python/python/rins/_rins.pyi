@@ -152,7 +152,7 @@ class _Campaign(TypedDict):
     threads: int | None
     force: bool
 
-class _Trials(TypedDict):
+class _BlindOptions(TypedDict):
     program: _Path
     population: str
     seed: int
@@ -161,7 +161,7 @@ class _Trials(TypedDict):
     threads: int
     journal: _Path
 
-def blind_trials(trials: _Trials) -> None: ...
+def blind_trials(options: _BlindOptions) -> None: ...
 def blind_page(journals: list[_Path], merged: _Path, population: str) -> str: ...
 def check_rig(text: str, path: str) -> None: ...
 def table(columns: list[tuple[str, Sequence[object]]]) -> _ArrowStream: ...
