@@ -44,7 +44,7 @@ fn bytes_are_the_same_for_any_threads_and_shards() {
     result_in(folder, "merge part2.parquet part1.parquet -o merged.parquet");
     assert!(bytes(folder, "one.parquet") == bytes(folder, "merged.parquet"));
     let page = fs::read_to_string(folder.join("merged.html")).unwrap();
-    assert!(page.contains("Errors over the sigma claimed"));
+    assert!(page.contains("Errors over their sigmas"));
     let left: Vec<_> = fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".part")), "{left:?}");
 }
