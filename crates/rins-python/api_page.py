@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import ast
-import inspect
 import sys
 from pathlib import Path
 
@@ -69,7 +68,7 @@ def split(arguments: str) -> list[str]:
 
 
 def documentation(node: Definition) -> str:
-    return inspect.cleandoc(ast.get_docstring(node) or "")
+    return ast.get_docstring(node) or ""
 
 
 def decorators(node: ast.FunctionDef) -> list[str]:

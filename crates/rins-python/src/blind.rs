@@ -30,15 +30,8 @@ fn population(name: &str) -> PyResult<Population> {
     }
 }
 
-/// An error with its causes.
 fn failed(error: &Trouble) -> PyErr {
-    let mut text = error.to_string();
-    let mut cause = std::error::Error::source(error);
-    while let Some(why) = cause {
-        text = format!("{text}: {why}");
-        cause = why.source();
-    }
-    PyOSError::new_err(text)
+    PyOSError::new_err(error.with_causes())
 }
 
 /// Runs the trials of a shard that its journal lacks, one after the other.

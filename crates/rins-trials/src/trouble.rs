@@ -50,3 +50,16 @@ pub enum Trouble {
         of: usize,
     },
 }
+
+impl Trouble {
+    /// The error and its causes, separated by colons.
+    pub fn with_causes(&self) -> String {
+        let mut text = self.to_string();
+        let mut cause = std::error::Error::source(self);
+        while let Some(why) = cause {
+            text = format!("{text}: {why}");
+            cause = why.source();
+        }
+        text
+    }
+}

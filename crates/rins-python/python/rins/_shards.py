@@ -46,8 +46,13 @@ class Shards(ABC):
 
     @property
     @abstractmethod
+    def subject(self) -> dict[str, object]:
+        """What the results depend on."""
+
+    @property
     def identity(self) -> dict[str, object]:
-        """What the results depend on, and their division into shards."""
+        """What the results depend on, their division into shards, and the version."""
+        return {**self.subject, "shards": self.shards, "version": _rins.VERSION}
 
     @abstractmethod
     def compute(self, shard: int, folder: Path) -> None:
@@ -188,7 +193,7 @@ class Campaign(Shards):
     _suffix = ".parquet"
 
     @property
-    def identity(self) -> dict[str, object]:
+    def subject(self) -> dict[str, object]:
         return {
             "scenario_sha256": digest_of(self.scenario),
             "runs": self.runs,
@@ -196,8 +201,6 @@ class Campaign(Shards):
             "model": self.model.identity,
             "noise": self.noise,
             "truth": self.truth,
-            "shards": self.shards,
-            "version": _rins.VERSION,
         }
 
     def check(self) -> None:
@@ -252,14 +255,8 @@ class Trials(Shards):
     _suffix = ".jsonl"
 
     @property
-    def identity(self) -> dict[str, object]:
-        return {
-            "population": self.population,
-            "trials": self.trials,
-            "seed": self.seed,
-            "shards": self.shards,
-            "version": _rins.VERSION,
-        }
+    def subject(self) -> dict[str, object]:
+        return {"population": self.population, "trials": self.trials, "seed": self.seed}
 
     def compute(self, shard: int, folder: Path) -> None:
         _rins.blind_trials(

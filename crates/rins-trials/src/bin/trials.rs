@@ -26,13 +26,7 @@ fn main() -> ExitCode {
         }
         Some(Ok(())) => ExitCode::SUCCESS,
         Some(Err(error)) => {
-            eprint!("error: {error}");
-            let mut cause = std::error::Error::source(&error);
-            while let Some(why) = cause {
-                eprint!(": {why}");
-                cause = why.source();
-            }
-            eprintln!();
+            eprintln!("error: {}", error.with_causes());
             ExitCode::FAILURE
         }
     }
